@@ -1,0 +1,67 @@
+#pragma once
+
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "core/catalog/recipe.h"
+#include "core/scene/scene.h"
+
+namespace boxwood {
+
+/// Result of one stage, with what it cost and left out.
+struct StageResult {
+    std::shared_ptr<const References> references;  ///< set by the references stage
+    std::optional<Structure> structure;            ///< set by builder and transforms
+    std::shared_ptr<const LevelTable> levels;      ///< of the structure; made at its first use, see levels_of
+    double ms = 0.0;
+    size_t byte_count = 0;
+    std::map<std::string, uint64_t> skipped;
+};
+
+/// Stage results under scene hash and recipe prefix; bounded in bytes, least recently used goes first.
+/// Thread-safe.
+class StageCache {
+public:
+    explicit StageCache(size_t byte_limit = size_t{2} << 30) : byte_limit_(byte_limit) {}
+    std::shared_ptr<const StageResult> find(const std::string& key);
+    void put(const std::string& key, std::shared_ptr<const StageResult> result);
+    void clear();
+    size_t byte_count() const;
+    size_t byte_limit() const { return byte_limit_; }
+    uint64_t run_count() const;  ///< stages that were run because they were not here: put() calls
+
+private:
+    struct Entry {
+        std::string key;
+        std::shared_ptr<const StageResult> result;
+    };
+    size_t byte_limit_;
+    mutable std::mutex mutex_;
+    std::list<Entry> entries_;  ///< most recently used first
+    std::map<std::string, std::list<Entry>::iterator> index_;
+    size_t byte_count_ = 0;
+    uint64_t run_count_ = 0;
+};
+
+/// A recipe run over a scene.
+struct Built {
+    std::shared_ptr<const Scene> scene;
+    Recipe recipe;
+    std::shared_ptr<const References> references;
+    Structure structure;
+    std::shared_ptr<const LevelTable> levels;  ///< null unless asked for
+    double references_ms = 0.0;  ///< as it took when it was run, also where the result came from the cache
+    double build_ms = 0.0;       ///< builder and transforms
+    std::map<std::string, uint64_t> skipped;
+};
+
+/// Runs the stages that `cache` does not hold. Nothing if task.stop was requested before it was done. With
+/// `with_levels` the node list is made too (and kept with the structure).
+std::optional<Built> run_recipe(const Recipe& recipe, std::shared_ptr<const Scene> scene, StageCache& cache,
+                                Task& task, bool with_levels = false);
+
+}  // namespace boxwood

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <concepts>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/base/assert.h"
+#include "core/refs/prim_ref.h"
+#include "core/structure/params.h"
+#include "core/structure/structure.h"
+
+namespace boxwood {
+
+/// Makes references: a plain struct of parameters.
+template <class T>
+concept ReferenceMaker = std::copyable<T> &&
+    requires(T t, const T& c, ParamVisitor& v, const Mesh& mesh, Task& task) {
+    t.describe(v);
+    { c.make(mesh, task) } -> std::same_as<References>;
+};
+
+/// Builds a structure over references: a plain struct of parameters.
+template <class T>
+concept Builder = std::copyable<T> &&
+    requires(T t, const T& c, ParamVisitor& v, const Mesh& mesh, std::span<const PrimRef> refs, Task& task) {
+    t.describe(v);
+    { c.build(mesh, refs, task) } -> AccelerationStructure;
+};
+
+/// Turns one structure into another; the input is shared and never changed.
+template <class T>
+concept Transform = std::copyable<T> && AccelerationStructure<typename T::Input> &&
+    AccelerationStructure<typename T::Output> &&
+    requires(T t, const T& c, ParamVisitor& v, const Mesh& mesh, std::span<const PrimRef> refs,
+             const typename T::Input& input, Task& task) {
+    t.describe(v);
+    { c.apply(mesh, refs, input, task) } -> std::same_as<typename T::Output>;
+};
+
+/// One stage of a recipe with its parameters, of any kind. Of the three functions that run it exactly one
+/// applies: the catalog's table says which.
+class StageMethod {
+public:
+    virtual ~StageMethod() = default;
+    virtual std::unique_ptr<StageMethod> clone() const = 0;
+    virtual void describe(ParamVisitor& visitor) = 0;
+    virtual References make(const Mesh& mesh, Task& task) const = 0;
+    virtual Structure build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const = 0;
+    virtual Structure apply(const Mesh& mesh, std::span<const PrimRef> refs, const Structure& input,
+                            Task& task) const = 0;
+};
+
+/// Gives a plain struct of parameters the interface above.
+template <class T>
+class StageModel final : public StageMethod {
+public:
+    explicit StageModel(T method = {}) : method_(std::move(method)) {}
+    std::unique_ptr<StageMethod> clone() const override { return std::make_unique<StageModel>(method_); }
+    void describe(ParamVisitor& visitor) override { method_.describe(visitor); }
+    References make(const Mesh& mesh, Task& task) const override {
+        if constexpr (ReferenceMaker<T>) return method_.make(mesh, task);
+        return not_this_kind<References>();
+    }
+    Structure build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const override {
+        if constexpr (Builder<T>) return Structure(method_.build(mesh, refs, task));
+        return not_this_kind<Structure>();
+    }
+    Structure apply(const Mesh& mesh, std::span<const PrimRef> refs, const Structure& input,
+                    Task& task) const override {
+        if constexpr (Transform<T>) {
+            const auto* concrete = input.as<typename T::Input>();
+            BOXWOOD_ASSERT(concrete != nullptr);
+            return Structure(method_.apply(mesh, refs, *concrete, task));
+        }
+        return not_this_kind<Structure>();
+    }
+
+private:
+    template <class Result>
+    [[noreturn]] static Result not_this_kind() {
+        assertion_failed("a stage is run as the kind of its catalog table", __FILE__, __LINE__);
+    }
+    T method_;
+};
+
+}  // namespace boxwood

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <concepts>
+#include <memory>
+#include <span>
+#include <typeinfo>
+#include <utility>
+
+#include "core/base/ray.h"
+#include "core/base/task.h"
+#include "core/scene/mesh.h"
+#include "core/structure/closest.h"
+#include "core/structure/node_list.h"
+
+namespace boxwood {
+
+/// What every structure offers; see STYLE: a plain struct of arrays, no base class. `kFamily` is the word
+/// that recipes use to say what fits: "binary BVH".
+template <class S>
+concept AccelerationStructure = std::movable<S> &&
+    requires(const S& s, const Mesh& mesh, ClosestHit<Mode::Exact>& exact, ClosestHit<Mode::Fast>& fast,
+             Count& count, NoCount& no_count) {
+    { S::kFamily } -> std::convertible_to<const char*>;
+    { s.closest_hit(mesh, exact, count) } -> std::same_as<void>;
+    { s.closest_hit(mesh, exact, no_count) } -> std::same_as<void>;
+    { s.closest_hit(mesh, fast, count) } -> std::same_as<void>;
+    { s.any_hit(mesh, exact, count) } -> std::same_as<bool>;
+    { s.list_nodes() } -> std::same_as<NodeList>;
+    { s.byte_count() } -> std::same_as<size_t>;
+};
+
+/// A built structure of any kind, immutable; copies share it. Called for batches of rays, never for one in a
+/// loop.
+class Structure {
+public:
+    template <AccelerationStructure S>
+    explicit Structure(S structure) : self_(std::make_shared<Model<S>>(std::move(structure))) {}
+
+    /// Nearest hit of each ray; hits.size() == rays.size(). A ray that is not valid (see is_valid) misses.
+    /// Stops between two rays when task.stop is requested, and leaves the rest unwritten.
+    void closest_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits, Mode mode,
+                      const Task& task) const {
+        self_->closest_hits(mesh, rays, hits, {}, mode, task);
+    }
+    /// The same, counted: counts.size() == rays.size(), each entry overwritten. Never timed.
+    void closest_hits_counted(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                              std::span<Count> counts, Mode mode, const Task& task) const {
+        self_->closest_hits(mesh, rays, hits, counts, mode, task);
+    }
+    /// occluded[i] = 1 if anything lies on ray i, otherwise 0.
+    void any_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<uint8_t> occluded, Mode mode,
+                  const Task& task) const {
+        self_->any_hits(mesh, rays, occluded, mode, task);
+    }
+    NodeList list_nodes() const { return self_->list_nodes(); }
+    size_t byte_count() const { return self_->byte_count(); }
+    const char* family() const { return self_->family(); }
+
+    /// The concrete structure, or nullptr if it is another type.
+    template <AccelerationStructure S>
+    const S* as() const {
+        const auto* model = dynamic_cast<const Model<S>*>(self_.get());
+        return model ? &model->structure : nullptr;
+    }
+
+private:
+    struct Interface {
+        virtual ~Interface() = default;
+        virtual void closest_hits(const Mesh&, std::span<const Ray>, std::span<Hit>, std::span<Count>, Mode,
+                                  const Task&) const = 0;
+        virtual void any_hits(const Mesh&, std::span<const Ray>, std::span<uint8_t>, Mode,
+                              const Task&) const = 0;
+        virtual NodeList list_nodes() const = 0;
+        virtual size_t byte_count() const = 0;
+        virtual const char* family() const = 0;
+    };
+
+    template <class S>
+    struct Model final : Interface {
+        explicit Model(S s) : structure(std::move(s)) {}
+
+        template <Mode mode>
+        void closest_hits_in(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                             std::span<Count> counts, const Task& task) const {
+            for (size_t i = 0; i < rays.size() && !task.stopped(); ++i) {
+                hits[i] = Hit{};
+                if (!counts.empty()) counts[i] = Count{};
+                if (!is_valid(rays[i])) continue;
+                ClosestHit<mode> closest(rays[i]);
+                if (counts.empty()) {
+                    NoCount no_count;
+                    structure.closest_hit(mesh, closest, no_count);
+                } else {
+                    structure.closest_hit(mesh, closest, counts[i]);
+                }
+                hits[i] = closest.hit(mesh);
+            }
+        }
+        template <Mode mode>
+        void any_hits_in(const Mesh& mesh, std::span<const Ray> rays, std::span<uint8_t> occluded,
+                         const Task& task) const {
+            for (size_t i = 0; i < rays.size() && !task.stopped(); ++i) {
+                occluded[i] = 0;
+                if (!is_valid(rays[i])) continue;
+                ClosestHit<mode> closest(rays[i]);
+                NoCount no_count;
+                occluded[i] = structure.any_hit(mesh, closest, no_count) ? 1 : 0;
+            }
+        }
+        void closest_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                          std::span<Count> counts, Mode mode, const Task& task) const override {
+            if (mode == Mode::Exact) {
+                closest_hits_in<Mode::Exact>(mesh, rays, hits, counts, task);
+            } else {
+                closest_hits_in<Mode::Fast>(mesh, rays, hits, counts, task);
+            }
+        }
+        void any_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<uint8_t> occluded, Mode mode,
+                      const Task& task) const override {
+            if (mode == Mode::Exact) {
+                any_hits_in<Mode::Exact>(mesh, rays, occluded, task);
+            } else {
+                any_hits_in<Mode::Fast>(mesh, rays, occluded, task);
+            }
+        }
+        NodeList list_nodes() const override { return structure.list_nodes(); }
+        size_t byte_count() const override { return structure.byte_count(); }
+        const char* family() const override { return S::kFamily; }
+
+        S structure;
+    };
+
+    std::shared_ptr<const Interface> self_;
+};
+
+}  // namespace boxwood
