@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/base/assert.h"
+#include "core/base/params.h"
 #include "core/refs/prim_ref.h"
-#include "core/structure/params.h"
 #include "core/structure/structure.h"
 
 namespace boxwood {

@@ -10,7 +10,7 @@ struct AreaLimit {
     bool absolute = false;  ///< false: value is s; true: value is sa, in square world units
     double value = 10.0;
 
-    /// SA_max in square world units.
+    /// SA_max in square world units: `value` itself, or scene_area / 2^value.
     double max_area(double scene_area) const;
     bool operator==(const AreaLimit&) const = default;
 };
