@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/scene/camera.h"
+
+namespace boxwood {
+
+/// Where the live CPU ray-traced picture stands.
+enum class TracedView : uint8_t {
+    Off,
+    Beside,  ///< right half of the view, the OpenGL picture on the left; same camera
+    Over,    ///< in place of the mesh; boxes and lines are drawn over it
+};
+
+/// What the colour of a node box says.
+enum class BoxColor : uint8_t {
+    Level,       ///< its level, along the colour map
+    Primitives,  ///< references below it, logarithmic
+    SahShare,    ///< its own share of the SAH cost, logarithmic
+};
+
+enum class Theme : uint8_t { Dark, Light };
+
+enum class UpAxis : uint8_t { X, Y, Z };
+
+/// Levels whose boxes are drawn, both ends included, 0 <= first <= last <= kMaxLevel. What lies beyond the
+/// tree's last level means that level.
+struct LevelRange {
+    static constexpr int kMaxLevel = 999;
+    int first = 0;
+    int last = 4;
+
+    bool operator==(const LevelRange&) const = default;
+};
+
+/// The truth of a session: plain data, of which everything that a frame shows is derived. A default value is
+/// what a new session shows.
+struct ViewerState {
+    std::string scene = "atrium";                         ///< see open_scene; a file as the user named it
+    std::string recipe = "evh(t=14) > bvh-binned-sah";    ///< text, see parse_recipe
+    Mode mode = Mode::Exact;                              ///< how rays decide intersections
+    std::optional<Camera> camera;                         ///< none: the scene's own view, or all of it
+    std::array<std::optional<Camera>, 9> stored_views{};  ///< keys 1 to 9
+    UpAxis up_axis = UpAxis::Y;                           ///< of orbiting and of whole-scene views
+
+    LevelRange levels;
+    bool leaves_above = true;  ///< leaves above levels.first too, so that the picture is whole
+    bool show_boxes = true;
+    bool show_mesh = true;
+    bool show_wire = false;
+    bool show_red = true;               ///< subdivided triangles in red
+    bool show_reference_boxes = false;  ///< the boxes of subdivided triangles, coloured by primitive
+    bool see_through = false;           ///< boxes through everything in front of them; false: hidden lines
+    BoxColor box_color = BoxColor::Level;
+
+    TracedView traced = TracedView::Off;
+
+    Theme theme = Theme::Dark;
+    float interface_scale = 1.0f;  ///< 0.5 to 4
+    int width = 1280;              ///< of the frame, in pixels, 16 to 8192
+    int height = 720;
+    bool show_panels = true;
+    bool show_keys = false;  ///< the list of all keys over the picture
+
+    bool operator==(const ViewerState&) const = default;
+};
+
+/// Unit vector of the axis.
+inline Vec3 up_vector(UpAxis axis) {
+    return {axis == UpAxis::X ? 1.0f : 0.0f, axis == UpAxis::Y ? 1.0f : 0.0f,
+            axis == UpAxis::Z ? 1.0f : 0.0f};
+}
+
+}  // namespace boxwood
