@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "app/gl/render_target.h"
+#include "app/viewer/draw_list.h"
+#include "core/refs/prim_ref.h"
+#include "core/scene/camera.h"
+#include "core/scene/mesh.h"
+#include "core/structure/node_list.h"
+
+namespace boxwood {
+
+struct Image;
+
+/// Draws the 3D view. What a scene or a structure needs is uploaded once, by the set functions; draw()
+/// uploads nothing that grows with the scene. Made and used with the same context current.
+class SceneRenderer {
+public:
+    SceneRenderer();
+    ~SceneRenderer();
+    SceneRenderer(const SceneRenderer&) = delete;
+    SceneRenderer& operator=(const SceneRenderer&) = delete;
+
+    /// The surface; forgets boxes and references.
+    void set_mesh(const Mesh& mesh);
+    /// The node boxes, one buffer in level order.
+    void set_boxes(const LevelTable& levels, const BoxValues& values);
+    /// Which primitives are split (red) and the boxes of their references.
+    void set_references(std::span<const PrimRef> refs);
+    /// A picture that stands behind boxes and lines in place of the background; uploaded where `version`
+    /// differs from the last one's. Nothing: clear_picture().
+    void set_picture(const Image& image, uint64_t version);
+    void clear_picture();
+
+    /// Draws into `rect` of the target; an empty rect draws nothing.
+    void draw(const DrawList& list, const Camera& camera, RenderTarget& target, const PixelRect& rect);
+
+    /// Of the last draw(). Waits for the GPU.
+    BoxCounts box_counts() const;
+    BoxCounts reference_box_counts() const;
+
+    uint64_t upload_count() const;  ///< uploads so far, by the set functions
+    size_t byte_count() const;      ///< of memory held on the GPU for the scene and its boxes
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Draws a picture into a rect of the target, over what is there. Keeps one picture on the GPU and uploads it
+/// where `version` differs from the last one's.
+class PictureRenderer {
+public:
+    PictureRenderer();
+    ~PictureRenderer();
+    PictureRenderer(const PictureRenderer&) = delete;
+    PictureRenderer& operator=(const PictureRenderer&) = delete;
+
+    /// opacity in [0, 1]. Scaled to fill the rect.
+    void draw(const Image& image, uint64_t version, float opacity, RenderTarget& target,
+              const PixelRect& rect);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace boxwood

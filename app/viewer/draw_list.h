@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/viewer/box_values.h"
+#include "app/viewer/state.h"
+#include "core/base/box.h"
+#include "core/base/vec.h"
+
+namespace boxwood {
+
+/// How the surface is drawn.
+enum class MeshLook : uint8_t {
+    Hidden,  ///< not at all: nothing hides a box
+    Depth,   ///< it hides what lies behind it, and leaves its colour to the picture under it
+    Shaded,
+};
+
+inline constexpr size_t kPaletteSize = 64;
+
+/// The colours of a value: linear RGB, palette[0] for the lower end of `range`.
+struct ColorScale {
+    BoxColor meaning = BoxColor::Level;
+    ValueRange range;
+    bool logarithmic = false;
+    std::array<Vec3, kPaletteSize> palette{};
+
+    /// Where a value lies between the ends of the range, clamped to [0, 1]; 0 where the range is empty.
+    float position(float value) const;
+    /// Interpolated; linear RGB.
+    Vec3 color(float value) const;
+};
+
+/// Boxes that are drawn: of the instance buffer in level order the entries [0, end), without the inner nodes
+/// of levels above `first_level`, without their leaves too unless `leaves_above`.
+struct BoxSelection {
+    uint32_t first_level = 0;
+    uint32_t end = 0;
+    bool leaves_above = true;
+    uint32_t count = 0;  ///< boxes in it
+
+    bool operator==(const BoxSelection&) const = default;
+};
+
+/// What one frame's 3D view shows: plain data, of lengths in pixels and colours in linear RGB.
+struct DrawList {
+    MeshLook mesh = MeshLook::Shaded;
+    bool wire = false;
+    bool red = true;  ///< primitives with more than one reference in red
+    std::optional<BoxSelection> boxes;
+    bool reference_boxes = false;  ///< of split primitives, coloured by primitive
+    bool see_through = false;      ///< hidden parts of boxes dimmer, in place of absent
+    ColorScale scale;              ///< of `boxes`
+    std::optional<Box> selected;   ///< drawn over all
+    uint32_t selected_prim = kNoIndex;
+    uint32_t box_budget = 200000;  ///< of each kind of boxes; the largest on screen are drawn
+    float line_width = 1.5f;
+    float wire_width = 1.0f;
+    Vec3 background_top{0.0f};
+    Vec3 background_bottom{0.0f};
+    Vec3 wire_color{0.0f};
+    Vec3 selection_color{1.0f};
+    bool axis_cross = true;
+};
+
+/// What became of the boxes of one kind in the last frame.
+struct BoxCounts {
+    uint32_t candidates = 0;  ///< all of the selection
+    uint32_t drawn = 0;
+    uint32_t outside = 0;      ///< outside the view
+    uint32_t under_pixel = 0;  ///< smaller than a pixel
+    uint32_t over_budget = 0;  ///< visible, not drawn: smaller on screen than those drawn
+
+    bool operator==(const BoxCounts&) const = default;
+};
+
+/// What a node selected in a panel or picked in the picture adds to the frame.
+struct Selection {
+    uint32_t node = kNoIndex;
+    uint32_t prim = kNoIndex;
+
+    bool operator==(const Selection&) const = default;
+};
+
+/// The frame's 3D view of a state. `levels` and `values` belong together; without levels no box is drawn.
+DrawList make_draw_list(const ViewerState& state, const LevelTable& levels, const BoxValues& values,
+                        const Selection& selection = {});
+
+/// "200,000 of 3,100,000 boxes, the largest on screen", and what else was left out.
+std::string describe(const BoxCounts& counts);
+
+}  // namespace boxwood
