@@ -23,7 +23,35 @@ struct CatalogEntry {
     std::unique_ptr<StageMethod> (*make)();
 };
 
-/// The three tables.
+/// The row of method T; kind and families are read off its type.
+template <class T>
+constexpr CatalogEntry row(const char* id, const char* label, const char* source, bool exact = true) {
+    const auto make = []() -> std::unique_ptr<StageMethod> { return std::make_unique<StageModel<T>>(); };
+    if constexpr (Transform<T>) {
+        return {id, label, source, StageKind::Transform, T::Input::kFamily, T::Output::kFamily, exact, make};
+    } else if constexpr (Builder<T>) {
+        using Output = decltype(std::declval<const T&>().build(
+            std::declval<const Mesh&>(), std::declval<std::span<const PrimRef>>(), std::declval<Task&>()));
+        return {id, label, source, StageKind::Builder, "", Output::kFamily, exact, make};
+    } else {
+        static_assert(ReferenceMaker<T>);
+        return {id, label, source, StageKind::References, "", "", exact, make};
+    }
+}
+
+/// The three tables. The first row of `references` is what a recipe has that names none: whole boxes.
+struct Catalog {
+    std::span<const CatalogEntry> references, builders, transforms;
+
+    /// The row of that id in any table, or nullptr.
+    const CatalogEntry* find(const std::string& id) const;
+    /// Every id, in the order of the tables.
+    std::vector<std::string> ids() const;
+};
+
+/// All that Boxwood has.
+const Catalog& catalog();
+
 std::span<const CatalogEntry> reference_catalog();
 std::span<const CatalogEntry> builder_catalog();
 std::span<const CatalogEntry> transform_catalog();

@@ -12,18 +12,18 @@
 
 namespace boxwood {
 
-/// Result of one stage, with what it cost and left out.
+/// Result of one stage, with what it cost and left out. Exactly one of the first three is set.
 struct StageResult {
-    std::shared_ptr<const References> references;  ///< set by the references stage
-    std::optional<Structure> structure;            ///< set by builder and transforms
-    std::shared_ptr<const LevelTable> levels;      ///< of the structure; made at its first use, see levels_of
+    std::shared_ptr<const References> references;  ///< of the references stage
+    std::optional<Structure> structure;            ///< of the builder or a transform
+    std::shared_ptr<const LevelTable> levels;      ///< of the structure; made when it is first asked for
     double ms = 0.0;
     size_t byte_count = 0;
     std::map<std::string, uint64_t> skipped;
 };
 
-/// Stage results under scene hash and recipe prefix; bounded in bytes, least recently used goes first.
-/// Thread-safe.
+/// Stage results under scene hash and recipe prefix; bounded in bytes, least recently used goes first. A
+/// result that is larger than the bound is not kept. Thread-safe.
 class StageCache {
 public:
     explicit StageCache(size_t byte_limit = size_t{2} << 30) : byte_limit_(byte_limit) {}
@@ -39,6 +39,8 @@ private:
         std::string key;
         std::shared_ptr<const StageResult> result;
     };
+    void remove(std::list<Entry>::iterator entry);
+
     size_t byte_limit_;
     mutable std::mutex mutex_;
     std::list<Entry> entries_;  ///< most recently used first
@@ -56,11 +58,12 @@ struct Built {
     std::shared_ptr<const LevelTable> levels;  ///< null unless asked for
     double references_ms = 0.0;  ///< as it took when it was run, also where the result came from the cache
     double build_ms = 0.0;       ///< builder and transforms
-    std::map<std::string, uint64_t> skipped;
+    std::map<std::string, uint64_t> skipped;  ///< by all stages, the scene's own not included
 };
 
 /// Runs the stages that `cache` does not hold. Nothing if task.stop was requested before it was done. With
-/// `with_levels` the node list is made too (and kept with the structure).
+/// `with_levels` the node list is made too, as a stage of its own. task.done and task.total are those of the
+/// stage that runs.
 std::optional<Built> run_recipe(const Recipe& recipe, std::shared_ptr<const Scene> scene, StageCache& cache,
                                 Task& task, bool with_levels = false);
 

@@ -8,6 +8,9 @@
 
 namespace boxwood {
 
+/// The references of a recipe that names none.
+inline constexpr const char* kWholeReferences = "whole";
+
 /// One stage of a recipe: a catalog row and its parameters. A value: copies are independent.
 class Stage {
 public:
@@ -42,6 +45,8 @@ struct Recipe {
 /// Throws Error (WrongUsage) that says what is wrong and names the nearest valid stage or key, or both
 /// families where a transform does not fit: "wide8 needs a binary BVH, kd-sah makes a kd-tree".
 Recipe parse_recipe(const std::string& text);
+/// The same over other tables than Boxwood's own; they outlive the recipe.
+Recipe parse_recipe(const std::string& text, const Catalog& catalog);
 
 /// Canonical: parse_recipe(print(r)) == r.
 std::string print(const Recipe& recipe);
