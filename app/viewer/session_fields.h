@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "app/viewer/session.h"
+
+namespace boxwood {
+
+inline constexpr std::array<const char*, 2> kModeNames{"exact", "fast"};
+inline constexpr std::array<const char*, 3> kTracedViewNames{"off", "beside", "over"};
+inline constexpr std::array<const char*, 3> kBoxColorNames{"level", "primitives", "sah-share"};
+inline constexpr std::array<const char*, 2> kThemeNames{"dark", "light"};
+inline constexpr std::array<const char*, 3> kUpAxisNames{"x", "y", "z"};
+
+/// Walks the fields of a session in the order in which they are printed: the reader and the writer are
+/// visitors. `defaults` has the same fields with their default values.
+template <class Visitor>
+void describe_session(Visitor& v, Session& session, const Session& defaults) {
+    ViewerState& s = session.state;
+    const ViewerState& d = defaults.state;
+    v.scene("scene", s.scene, d.scene);
+    v.text("recipe", s.recipe, d.recipe);
+    v.choice("mode", s.mode, d.mode, kModeNames);
+    v.camera("camera", s.camera);
+    v.views("views", s.stored_views);
+    v.choice("up", s.up_axis, d.up_axis, kUpAxisNames);
+    v.levels("levels", s.levels, d.levels);
+    v.flag("leaves_above", s.leaves_above, d.leaves_above);
+    v.flag("boxes", s.show_boxes, d.show_boxes);
+    v.flag("mesh", s.show_mesh, d.show_mesh);
+    v.flag("wire", s.show_wire, d.show_wire);
+    v.flag("red", s.show_red, d.show_red);
+    v.flag("reference_boxes", s.show_reference_boxes, d.show_reference_boxes);
+    v.flag("see_through", s.see_through, d.see_through);
+    v.choice("box_color", s.box_color, d.box_color, kBoxColorNames);
+    v.choice("traced", s.traced, d.traced, kTracedViewNames);
+    v.choice("theme", s.theme, d.theme, kThemeNames);
+    v.number("scale", s.interface_scale, d.interface_scale, 0.5f, 4.0f);
+    v.size("size", s.width, s.height, d.width, d.height);
+    v.flag("panels", s.show_panels, d.show_panels);
+    v.flag("keys", s.show_keys, d.show_keys);
+    v.limits("check", session.limits, defaults.limits);
+}
+
+}  // namespace boxwood
