@@ -13,9 +13,7 @@ struct ViewRect {
     float width = 1.0f;
     float height = 1.0f;
 
-    bool contains(const Vec2& p) const {
-        return p.x >= x && p.y >= y && p.x < x + width && p.y < y + height;
-    }
+    bool contains(const Vec2& p) const { return p.x >= x && p.y >= y && p.x < x + width && p.y < y + height; }
     bool operator==(const ViewRect&) const = default;
 };
 

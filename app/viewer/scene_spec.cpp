@@ -11,14 +11,16 @@ std::pair<std::string, std::string> split_spec(const std::string& spec) {
     for (size_t at = spec.find('@'); at != std::string::npos; at = spec.find('@', at + 1)) {
         size_t end = at + 1;
         while (end < spec.size() && spec[end] >= 'a' && spec[end] <= 'z') ++end;
-        if (end > at + 1 && end < spec.size() && spec[end] == '=') return {spec.substr(0, at), spec.substr(at)};
+        if (end > at + 1 && end < spec.size() && spec[end] == '=')
+            return {spec.substr(0, at), spec.substr(at)};
     }
     return {spec, ""};
 }
 
 bool is_built_in(const std::string& spec) {
     const std::string name = split_spec(spec).first;
-    return std::ranges::any_of(built_in_scenes(), [&](const BuiltInScene& scene) { return name == scene.name; });
+    return std::ranges::any_of(built_in_scenes(),
+                               [&](const BuiltInScene& scene) { return name == scene.name; });
 }
 
 std::string relative_spec(const std::string& spec, const std::string& folder) {

@@ -1,5 +1,7 @@
 #include "app/viewer/session.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -13,6 +15,8 @@
 #include "app/viewer/scene_spec.h"
 #include "app/viewer/session_fields.h"
 #include "core/base/error.h"
+#include "core/render/png.h"
+#include "core/scene/scene.h"
 
 namespace boxwood {
 namespace {
@@ -50,7 +54,9 @@ int nesting(const std::string& text) {
 std::string kind_of(const Json& value) {
     if (value.is_number()) return "the number " + value.dump();
     if (value.is_string()) return "a text";
-    return value.is_null() ? "null" : value.is_boolean() ? value.dump() : std::string("an ") + value.type_name();
+    return value.is_null()      ? "null"
+           : value.is_boolean() ? value.dump()
+                                : std::string("an ") + value.type_name();
 }
 
 /// Fills a session from a JSON object; what it reads it takes out of the object.
@@ -94,11 +100,14 @@ public:
             }
             expected += std::string(i == 0 ? " \"" : ", \"") + names[i] + "\"";
         }
-        fail(key, expected, json->is_string() ? json->dump(-1, ' ', false, Json::error_handler_t::replace)
-                                              : kind_of(*json));
+        fail(key, expected,
+             json->is_string() ? json->dump(-1, ' ', false, Json::error_handler_t::replace) : kind_of(*json));
     }
     void number(const char* key, float& value, float, float lower, float upper) {
         if (const std::optional<Json> json = take(key)) value = as_number(key, *json, lower, upper);
+    }
+    void whole_number(const char* key, int& value, int, int lower, int upper) {
+        if (const std::optional<Json> json = take(key)) value = as_int(key, *json, lower, upper);
     }
     void size(const char* key, int& width, int& height, int, int) {
         const std::optional<Json> json = take(key);
@@ -241,6 +250,9 @@ public:
     void number(const char* key, float value, float default_value, float, float) {
         if (value != default_value) object_[key] = short_number(value);
     }
+    void whole_number(const char* key, int value, int default_value, int, int) {
+        if (value != default_value) object_[key] = value;
+    }
     void size(const char* key, int width, int height, int default_width, int default_height) {
         if (width != default_width || height != default_height) object_[key] = {width, height};
     }
@@ -290,6 +302,18 @@ Json parse_json(const std::string& text, const std::string& where) {
     }
 }
 
+std::string read_file(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string text;
+    std::array<char, 65536> block;
+    while (file && text.size() <= kMaxBytes) {
+        file.read(block.data(), block.size());
+        text.append(block.data(), static_cast<size_t>(file.gcount()));
+    }
+    if (file.bad() || (!file && !file.eof())) refuse(path, "expected a file that can be read");
+    return text;
+}
+
 }  // namespace
 
 bool is_session_text(const std::string& text) {
@@ -320,13 +344,30 @@ std::string print_session(const Session& session, const std::string& folder) {
     Session copy = session;
     Writer writer(json, folder);
     describe_session(writer, copy, Session{});
-    for (const auto& [key, value] : Json::parse(session.unknown).items()) json[key] = value;
+    const Json unknown = Json::parse(session.unknown);
+    for (const auto& [key, value] : unknown.items()) json[key] = value;
     return json.dump(4, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string folder_of(const std::string& path) {
     const std::string folder = std::filesystem::path(path).parent_path().string();
     return folder.empty() ? "." : folder;
+}
+
+std::optional<Session> load_session(const std::string& path) {
+    if (is_built_in(path) || !std::filesystem::is_regular_file(split_spec(path).first)) return std::nullopt;
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, 8> start{};
+    file.read(start.data(), start.size());
+    if (has_png_signature(std::as_bytes(std::span(start)))) {
+        const std::string text = read_png(path).session_text;
+        if (text.empty()) refuse(path, "expected a picture with a session in it; this one carries none");
+        return parse_session(text, folder_of(path), path);
+    }
+    if (!file || start[0] == 0) return std::nullopt;
+    const std::string text = read_file(path);
+    if (!is_session_text(text)) return std::nullopt;
+    return parse_session(text, folder_of(path), path);
 }
 
 void save_session(const Session& session, const std::string& path) {

@@ -35,6 +35,11 @@ void describe_session(Visitor& v, Session& session, const Session& defaults) {
     v.flag("see_through", s.see_through, d.see_through);
     v.choice("box_color", s.box_color, d.box_color, kBoxColorNames);
     v.choice("traced", s.traced, d.traced, kTracedViewNames);
+    v.choice("shade", s.shading, d.shading, kShadingNames);
+    v.whole_number("spp", s.spp, d.spp, 0, 4096);
+    v.choice("color_map", s.color_map, d.color_map, kColorMapNames);
+    v.flag("log_heat", s.log_heat, d.log_heat);
+    v.number("heat_max", s.heat_max, d.heat_max, 0.0f, 1e6f);
     v.choice("theme", s.theme, d.theme, kThemeNames);
     v.number("scale", s.interface_scale, d.interface_scale, 0.5f, 4.0f);
     v.size("size", s.width, s.height, d.width, d.height);

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "core/render/color_map.h"
+#include "core/render/trace_image.h"
 #include "core/scene/camera.h"
 
 namespace boxwood {
@@ -58,6 +60,11 @@ struct ViewerState {
     BoxColor box_color = BoxColor::Level;
 
     TracedView traced = TracedView::Off;
+    Shading shading = Shading::Primary;      ///< of the traced view
+    int spp = 0;                             ///< its samples per pixel, 0 to 4096; 0: the shading's default
+    ColorMap color_map = ColorMap::Viridis;  ///< of boxes and of the heat map
+    bool log_heat = false;                   ///< logarithmic scale of the heat map
+    float heat_max = 0.0f;                   ///< upper end of its scale; 0: from the picture
 
     Theme theme = Theme::Dark;
     float interface_scale = 1.0f;  ///< 0.5 to 4
