@@ -1,0 +1,58 @@
+#include "core/bvh/spatial_median.h"
+
+#include <array>
+
+#include "core/bvh/top_down.h"
+
+namespace boxwood {
+
+namespace {
+
+/// Axes by descending extent, ties in axis order.
+std::array<int, 3> axes_by_extent(const Box& box) {
+    std::array<int, 3> axes{0, 1, 2};
+    const DVec3 extent = box.extent();
+    std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return extent[a] > extent[b]; });
+    return axes;
+}
+
+/// How many references go left of the middle of `box` on the first axis where both sides get some.
+std::optional<uint32_t> split_in_the_middle(std::span<PrimRef> refs, const Box& box) {
+    for (const int axis : axes_by_extent(box)) {
+        const double middle = static_cast<double>(box.lower[axis]) + static_cast<double>(box.upper[axis]);
+        const auto is_left = [&](const PrimRef& ref) {
+            return static_cast<double>(ref.bounds.lower[axis]) + static_cast<double>(ref.bounds.upper[axis]) <
+                   middle;
+        };
+        const auto left_count = static_cast<size_t>(std::count_if(refs.begin(), refs.end(), is_left));
+        if (left_count == 0 || left_count == refs.size()) continue;
+        std::partition(refs.begin(), refs.end(), is_left);
+        return static_cast<uint32_t>(left_count);
+    }
+    return std::nullopt;
+}
+
+/// Box of the references' centres.
+Box center_bounds(std::span<const PrimRef> refs) {
+    Box box;
+    for (const PrimRef& ref : refs) box.extend(0.5f * doubled_center(ref.bounds));
+    return box;
+}
+
+}  // namespace
+
+Bvh2 SpatialMedian::build(const Mesh&, std::span<const PrimRef> refs, Task& task) const {
+    const auto partition = [&](std::span<PrimRef> node_refs, const Box& bounds,
+                               uint32_t depth) -> std::optional<uint32_t> {
+        const auto count = static_cast<uint32_t>(node_refs.size());
+        if (count <= static_cast<uint32_t>(max_leaf_size)) return std::nullopt;
+        if (must_halve(depth, count)) return count / 2;
+        if (const auto left_count = split_in_the_middle(node_refs, bounds)) return left_count;
+        if (const auto left_count = split_in_the_middle(node_refs, center_bounds(node_refs)))
+            return left_count;
+        return count / 2;
+    };
+    return TopDown(refs, partition, task).build();
+}
+
+}  // namespace boxwood

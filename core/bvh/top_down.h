@@ -1,0 +1,104 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <optional>
+
+#include "core/base/parallel.h"
+#include "core/bvh/bvh2.h"
+#include "core/refs/prim_ref.h"
+
+namespace boxwood {
+
+/// References [begin, end) of a node under construction.
+struct RefRange {
+    uint32_t begin, end;
+
+    uint32_t count() const { return end - begin; }
+};
+
+/// Box of the references.
+Box bounds_of(std::span<const PrimRef> refs);
+
+/// Centre of a box, times two: what top-down builders sort and bin by. An overflow of the sum is clamped.
+inline Vec3 doubled_center(const Box& box) {
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    return glm::clamp(box.lower + box.upper, Vec3(-kLargest), Vec3(kLargest));
+}
+
+/// Nodes of a tree under construction. The children of a node that is split at `mid` (a position in the
+/// references) stand at 2 mid - 1 and 2 mid: every mid occurs at most once, so threads need no common
+/// counter, and the result does not depend on their number.
+struct NodeScratch {
+    std::vector<Bvh2::Node> nodes;
+
+    explicit NodeScratch(size_t ref_count) : nodes(ref_count == 0 ? 0 : 2 * ref_count - 1) {}
+    void set_leaf(uint32_t node, const Box& bounds, RefRange range) {
+        nodes[node] = {bounds.lower, range.begin, bounds.upper, range.count()};
+    }
+    /// Returns the left child.
+    uint32_t set_inner(uint32_t node, uint32_t mid) {
+        nodes[node].first = 2 * mid - 1;
+        nodes[node].count = 0;
+        return nodes[node].first;
+    }
+};
+
+/// The finished tree: nodes in depth-first order without gaps, duplicates of one primitive removed in every
+/// leaf (Dammertz, Keller 2008, section 2.3). `prims` is the primitive of each reference in build order.
+Bvh2 finish(const NodeScratch& scratch, std::span<const uint32_t> prims);
+
+/// Whether a node at `depth` with `count` references must be split in the middle by count, so that the tree
+/// stays within kMaxDepth for every input: halving needs at most ceil(log2 count) further levels.
+inline bool must_halve(uint32_t depth, uint32_t count) {
+    return depth + static_cast<uint32_t>(std::bit_width(count)) >= Bvh2::kMaxDepth;
+}
+
+/// Ernst, Greiner 2007, Algorithm 2: top-down construction over a copy of the references, in parallel.
+/// `partition(refs, bounds, depth)` reorders the references of a node and returns how many go left, or
+/// nothing where a leaf is cheaper. It is called from many threads.
+template <class Partition>
+class TopDown {
+public:
+    TopDown(std::span<const PrimRef> refs, const Partition& partition, const Task& task)
+        : refs_(refs.begin(), refs.end()), scratch_(refs.size()), partition_(partition), task_(task) {}
+
+    Bvh2 build() {
+        if (refs_.empty()) return {};
+        build_node(0, {0, static_cast<uint32_t>(refs_.size())}, 0);
+        if (task_.stopped()) return {};
+        std::vector<uint32_t> prims(refs_.size());
+        for (size_t i = 0; i < refs_.size(); ++i) prims[i] = refs_[i].prim;
+        return finish(scratch_, prims);
+    }
+
+private:
+    static constexpr uint32_t kSerialCount = 2048;  ///< smaller nodes are built by one thread
+
+    void build_node(uint32_t node, RefRange range, uint32_t depth) {
+        const std::span<PrimRef> refs(refs_.data() + range.begin, range.count());
+        const Box bounds = bounds_of(refs);
+        scratch_.set_leaf(node, bounds, range);
+        if (range.count() == 1 || depth == Bvh2::kMaxDepth || task_.stopped()) return;
+        const std::optional<uint32_t> left_count = partition_(refs, bounds, depth);
+        if (!left_count) return;  // a leaf is cheaper
+        const uint32_t mid = range.begin + *left_count;
+        const uint32_t left = scratch_.set_inner(node, mid);
+        const auto build_left = [&] { build_node(left, {range.begin, mid}, depth + 1); };
+        const auto build_right = [&] { build_node(left + 1, {mid, range.end}, depth + 1); };
+        if (range.count() > kSerialCount) {
+            parallel_invoke(build_left, build_right);
+        } else {
+            build_left();
+            build_right();
+        }
+    }
+
+    std::vector<PrimRef> refs_;
+    NodeScratch scratch_;
+    const Partition& partition_;
+    const Task& task_;
+};
+
+}  // namespace boxwood

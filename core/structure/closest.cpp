@@ -1,0 +1,199 @@
+#include "core/structure/closest.h"
+
+#include "core/base/expansion.h"
+
+namespace boxwood {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+int largest_component(const Vec3& v) {
+    const Vec3 a = glm::abs(v);
+    return a.x >= a.y ? (a.x >= a.z ? 0 : 2) : (a.y >= a.z ? 1 : 2);
+}
+
+struct ExactVec3 {
+    Expansion x, y, z;
+};
+
+ExactVec3 difference(const Vec3& a, const Vec3& b) {
+    const DVec3 p(a), q(b);
+    return {Expansion::difference(p.x, q.x), Expansion::difference(p.y, q.y),
+            Expansion::difference(p.z, q.z)};
+}
+
+ExactVec3 cross(const ExactVec3& a, const ExactVec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+Expansion dot(const Vec3& a, const ExactVec3& b) {
+    const DVec3 p(a);
+    return b.x * p.x + b.y * p.y + b.z * p.z;
+}
+
+Expansion dot(const ExactVec3& a, const ExactVec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/// t = numerator / denominator of the ray and the triangle's plane, exactly.
+struct ExactT {
+    Expansion numerator, denominator;
+
+    ExactT(const Ray& ray, const Triangle& triangle) {
+        const ExactVec3 normal =
+            cross(difference(triangle.b, triangle.a), difference(triangle.c, triangle.a));
+        numerator = dot(difference(triangle.a, ray.origin), normal);
+        denominator = dot(ray.direction, normal);
+        if (denominator.sign() < 0) {
+            numerator = -numerator;
+            denominator = -denominator;
+        }
+    }
+    /// Sign of t - value.
+    int compare(double value) const { return (numerator - denominator * value).sign(); }
+    /// Sign of t - other.
+    int compare(const ExactT& other) const {
+        return (numerator * other.denominator - other.numerator * denominator).sign();
+    }
+    /// Within 2^-50 of t.
+    double estimate() const { return numerator.estimate() / denominator.estimate(); }
+};
+
+struct Interval {
+    double lower, upper;
+};
+
+/// Contains the exact t of a triangle that is hit. t = A.n / d.n, n = (b - a) x (c - a), A = a - o. u =
+/// 2^-53: each monomial of A.n carries 3 roundings of differences, 2 of products, 1 of the difference in n, 2
+/// of the sum: at most gamma_8 of the sum of absolute monomials; d.n one less. kTermBound = 10 u covers both
+/// and the rounding of the sums of absolute values. Where the bound says nothing, exact arithmetic narrows
+/// it.
+Interval interval_of_t(const Ray& ray, const Triangle& triangle) {
+    constexpr double kUnit = 0x1p-53;
+    constexpr double kTermBound = 10.0 * kUnit;
+    const DVec3 a = DVec3(triangle.a) - DVec3(ray.origin);
+    const DVec3 e1 = DVec3(triangle.b) - DVec3(triangle.a), e2 = DVec3(triangle.c) - DVec3(triangle.a);
+    const DVec3 d(ray.direction);
+    const DVec3 n = glm::cross(e1, e2);
+    const DVec3 n_abs(std::abs(e1.y * e2.z) + std::abs(e1.z * e2.y),
+                      std::abs(e1.z * e2.x) + std::abs(e1.x * e2.z),
+                      std::abs(e1.x * e2.y) + std::abs(e1.y * e2.x));
+    const double numerator = glm::dot(a, n), denominator = glm::dot(d, n);
+    const double numerator_error = kTermBound * glm::dot(glm::abs(a), n_abs);
+    const double denominator_error = kTermBound * glm::dot(glm::abs(d), n_abs);
+    const double rest = std::abs(denominator) - denominator_error;
+    double t, error;
+    // The quotient's bound: |t - N/D| <= (eN + |N/D| eD) / (|D| - eD), its own arithmetic within 8 u, plus
+    // the division's u |t|.
+    if (rest > 0.0) {
+        t = numerator / denominator;
+        error = (numerator_error + std::abs(t) * denominator_error) / rest * (1.0 + 0x1p-40) +
+                2.0 * kUnit * std::abs(t);
+    } else {
+        t = ExactT(ray, triangle).estimate();
+        error = 0x1p-48 * std::abs(t);
+    }
+    return {t - error, t + error};
+}
+
+}  // namespace
+
+bool is_valid(const Ray& ray) {
+    return is_finite(ray.origin) && is_finite(ray.direction) && ray.direction != Vec3(0.0f) &&
+           ray.t_min >= 0.0f && ray.t_min <= ray.t_max && ray.t_min < std::numeric_limits<float>::infinity();
+}
+
+ClosestHit<Mode::Exact>::ClosestHit(const Ray& ray)
+    : ray_(ray),
+      slabs_(ray),
+      origin_(ray.origin),
+      kz_(largest_component(ray.direction)),
+      limit_(static_cast<double>(ray.t_max) * RaySlabs::kPad),
+      t_lower_(kInfinity),
+      t_upper_(kInfinity) {
+    kx_ = (kz_ + 1) % 3;
+    ky_ = (kz_ + 2) % 3;
+    const DVec3 d(ray.direction);
+    shear_x_ = d[kx_] / d[kz_];
+    shear_y_ = d[ky_] / d[kz_];
+}
+
+bool ClosestHit<Mode::Exact>::decide_exactly(const Triangle& triangle) const {
+    // The edge functions d.(B x C), d.(C x A), d.(A x B): the closed triangle is hit if no two differ in
+    // sign; all zero means that its plane holds the ray.
+    const ExactVec3 a = difference(triangle.a, ray_.origin);
+    const ExactVec3 b = difference(triangle.b, ray_.origin);
+    const ExactVec3 c = difference(triangle.c, ray_.origin);
+    const int u = dot(ray_.direction, cross(b, c)).sign();
+    const int v = dot(ray_.direction, cross(c, a)).sign();
+    const int w = dot(ray_.direction, cross(a, b)).sign();
+    const bool some_negative = u < 0 || v < 0 || w<0, some_positive = u> 0 || v > 0 || w > 0;
+    return some_negative != some_positive;
+}
+
+bool ClosestHit<Mode::Exact>::is_in_range(const Triangle& triangle) const {
+    const Interval t = interval_of_t(ray_, triangle);
+    const double t_min = static_cast<double>(ray_.t_min), t_max = static_cast<double>(ray_.t_max);
+    if (t.upper < t_min || t.lower > t_max) return false;
+    if (t.lower >= t_min && t.upper <= t_max) return true;
+    const ExactT exact(ray_, triangle);
+    return exact.compare(t_min) >= 0 && (std::isinf(ray_.t_max) || exact.compare(t_max) <= 0);
+}
+
+bool ClosestHit<Mode::Exact>::keep_if_nearer(const Triangle& triangle, uint32_t prim) {
+    const Interval t = interval_of_t(ray_, triangle);
+    const double t_min = static_cast<double>(ray_.t_min), t_max = static_cast<double>(ray_.t_max);
+    if (t.upper < t_min || t.lower > t_max || t.lower > t_upper_) return true;
+    const bool is_surely_in_range = t.lower >= t_min && t.upper <= t_max;
+    const bool is_surely_nearer = t.upper < t_lower_;
+    if (!is_surely_in_range || !is_surely_nearer) {
+        if (prim == prim_) return true;  // a second reference to the best hit
+        const ExactT exact(ray_, triangle);
+        if (exact.compare(t_min) < 0 || (!std::isinf(ray_.t_max) && exact.compare(t_max) > 0)) return false;
+        if (prim_ != kNoIndex) {
+            const int order = exact.compare(ExactT(ray_, best_));
+            if (order > 0 || (order == 0 && prim > prim_)) return false;
+        }
+    }
+    best_ = triangle;
+    prim_ = prim;
+    t_lower_ = t.lower;
+    t_upper_ = t.upper;
+    limit_ = std::min(limit_, t.upper * RaySlabs::kPad);
+    return is_surely_in_range && is_surely_nearer;
+}
+
+Hit ClosestHit<Mode::Exact>::hit(const Mesh&) const {
+    if (prim_ == kNoIndex) return {};
+    const float lower = static_cast<float>(t_lower_), upper = static_cast<float>(t_upper_);
+    if (lower == upper) return {upper, prim_};
+    // Rounding is monotonic, so the result lies in [lower, upper]; go up while t is beyond the midpoint to
+    // the next float (a double), at a tie to the even one.
+    const ExactT exact(ray_, best_);
+    float t = lower;
+    while (t < upper) {
+        const float next = std::nextafter(t, std::numeric_limits<float>::infinity());
+        const double above = std::isinf(next) ? 0x1p128 : static_cast<double>(next);
+        const int order = exact.compare(0.5 * (static_cast<double>(t) + above));
+        if (order < 0) break;
+        // At the midpoint the double-to-float conversion picks the even neighbour.
+        if (order == 0) return {static_cast<float>(0.5 * (static_cast<double>(t) + above)), prim_};
+        t = next;
+    }
+    return {t, prim_};
+}
+
+ClosestHit<Mode::Fast>::ClosestHit(const Ray& ray)
+    : ray_(ray),
+      slabs_(ray),
+      kz_(largest_component(ray.direction)),
+      limit_(static_cast<double>(ray.t_max) * kPad) {
+    kx_ = (kz_ + 1) % 3;
+    ky_ = (kz_ + 2) % 3;
+    shear_x_ = ray.direction[kx_] / ray.direction[kz_];
+    shear_y_ = ray.direction[ky_] / ray.direction[kz_];
+    inverse_z_ = 1.0f / ray.direction[kz_];
+}
+
+}  // namespace boxwood
