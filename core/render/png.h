@@ -17,9 +17,11 @@ struct PngFile {
     std::string session_text;  ///< empty if the file carries none
 };
 
-/// Writes the picture as PNG with `session_text` (UTF-8; left out where empty) in an iTXt chunk
-/// "boxwood-session", to a temporary file that is then renamed. Throws Error (BadInput) if the file cannot be
-/// written.
+/// The picture as a PNG file's bytes, with `session_text` (UTF-8; left out where empty) in an iTXt chunk
+/// "boxwood-session". The picture has at least one pixel.
+std::string encode_png(const Image& image, const std::string& session_text = {});
+
+/// encode_png to a file, by write_file_atomically. Throws Error (WrongUsage) if it cannot be written.
 void write_png(const std::string& path, const Image& image, const std::string& session_text = {});
 
 /// Reads any PNG as 8-bit RGBA. Throws Error (BadInput) with the file's name if it is not a whole PNG, or
