@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/bvh/box4.h"
 #include "core/bvh/top_down.h"
 
 namespace boxwood {
@@ -10,35 +11,50 @@ namespace {
 
 constexpr int kMaxBins = 256;
 
-struct Bin {
-    Box bounds;
-    uint32_t count = 0;
-};
-
 /// Maps centres to bins: Wald 2007, section 3.1. Scale 0 on an axis without extent.
 struct Binning {
     Vec3 lower;
     Vec3 scale;
     int bin_count;
 
-    Binning(std::span<const PrimRef> refs, int bins) : bin_count(bins) {
-        Vec3 upper(-std::numeric_limits<float>::infinity());
-        lower = Vec3(std::numeric_limits<float>::infinity());
-        for (const PrimRef& ref : refs) {
-            const Vec3 center = doubled_center(ref.bounds);
-            lower = glm::min(lower, center);
-            upper = glm::max(upper, center);
-        }
+    Binning(const Box& doubled_centers, int bins) : lower(doubled_centers.lower), bin_count(bins) {
         // k1 = bins (1 - epsilon) / extent; an extent without a finite inverse is none.
-        const Vec3 extent = upper - lower;
+        const Vec3 extent = doubled_centers.upper - lower;
         for (int axis = 0; axis < 3; ++axis) {
             const float k1 = static_cast<float>(bins) * 0.99999f / extent[axis];
             scale[axis] = std::isfinite(k1) ? k1 : 0.0f;
         }
     }
     int bin(const PrimRef& ref, int axis) const {
-        const Vec3 center = doubled_center(ref.bounds);
-        return std::min(static_cast<int>((center[axis] - lower[axis]) * scale[axis]), bin_count - 1);
+        const float center = doubled_center(ref.bounds)[axis];
+        return std::min(static_cast<int>((center - lower[axis]) * scale[axis]), bin_count - 1);
+    }
+};
+
+/// Boxes and counts of the bins of the three axes; only what is used is initialised.
+struct Bins {
+    Box4 boxes[3][kMaxBins];
+    uint32_t counts[3][kMaxBins];
+
+    /// The same arithmetic as Binning::bin, three axes at once.
+    void fill(std::span<const PrimRef> refs, const Binning& binning) {
+        for (int axis = 0; axis < 3; ++axis) {
+            std::fill_n(boxes[axis], binning.bin_count, empty_box4());
+            std::fill_n(counts[axis], binning.bin_count, 0u);
+        }
+        const Float4 lower{binning.lower.x, binning.lower.y, binning.lower.z, 0.0f};
+        const Float4 scale{binning.scale.x, binning.scale.y, binning.scale.z, 0.0f};
+        const int32_t last = binning.bin_count - 1;
+        for (const PrimRef& ref : refs) {
+            const Float4 ref_lower = load_lower(ref), ref_upper = load_upper(ref);
+            const Float4 position = (doubled_center4(ref_lower, ref_upper) - lower) * scale;
+            const Int4 bin = __builtin_convertvector(position, Int4);
+            for (int axis = 0; axis < 3; ++axis) {
+                const int32_t i = std::min(bin[axis], last);
+                boxes[axis][i].extend(ref_lower, ref_upper);
+                ++counts[axis][i];
+            }
+        }
     }
 };
 
@@ -49,46 +65,49 @@ struct Split {
     uint32_t left_count = 0;
 };
 
+/// Of a box that is not empty, in double.
+double half_area(const Box4& box) {
+    const double x = static_cast<double>(box.upper[0]) - static_cast<double>(box.lower[0]);
+    const double y = static_cast<double>(box.upper[1]) - static_cast<double>(box.lower[1]);
+    const double z = static_cast<double>(box.upper[2]) - static_cast<double>(box.lower[2]);
+    return x * y + y * z + z * x;
+}
+
 /// Cheapest plane between two bins of one axis; the more even one of equally cheap ones.
-void sweep_axis(std::span<const Bin> bins, int axis, uint32_t count, Split& best) {
+void sweep_axis(const Bins& bins, int bin_count, int axis, uint32_t count, Split& best) {
+    const Box4* boxes = bins.boxes[axis];
+    const uint32_t* counts = bins.counts[axis];
     std::array<double, kMaxBins> right_cost;
-    Box box;
+    Box4 box = empty_box4();
     uint32_t right_count = 0;
-    for (size_t i = bins.size() - 1; i > 0; --i) {
-        box.extend(bins[i].bounds);
-        right_count += bins[i].count;
-        right_cost[i] = right_count * box.half_area();
+    for (int i = bin_count - 1; i > 0; --i) {
+        box.extend(boxes[i].lower, boxes[i].upper);
+        right_count += counts[i];
+        right_cost[static_cast<size_t>(i)] = right_count == 0 ? 0.0 : right_count * half_area(box);
     }
-    box = Box{};
+    box = empty_box4();
     uint32_t left_count = 0;
     const auto imbalance = [&](uint32_t left) {
         return left > count - left ? 2 * left - count : count - 2 * left;
     };
-    for (size_t i = 1; i < bins.size(); ++i) {
-        box.extend(bins[i - 1].bounds);
-        left_count += bins[i - 1].count;
+    for (int i = 1; i < bin_count; ++i) {
+        box.extend(boxes[i - 1].lower, boxes[i - 1].upper);
+        left_count += counts[i - 1];
         if (left_count == 0 || left_count == count) continue;
-        const double cost = left_count * box.half_area() + right_cost[i];
+        const double cost = left_count * half_area(box) + right_cost[static_cast<size_t>(i)];
         if (cost < best.cost || (cost == best.cost && imbalance(left_count) < imbalance(best.left_count))) {
-            best = {cost, axis, static_cast<int>(i), left_count};
+            best = {cost, axis, i, left_count};
         }
     }
 }
 
 Split cheapest_split(std::span<const PrimRef> refs, const Binning& binning) {
-    const auto bin_count = static_cast<size_t>(binning.bin_count);
-    std::array<std::array<Bin, kMaxBins>, 3> storage;
-    for (const PrimRef& ref : refs) {
-        for (size_t axis = 0; axis < 3; ++axis) {
-            Bin& bin = storage[axis][static_cast<size_t>(binning.bin(ref, static_cast<int>(axis)))];
-            bin.bounds.extend(ref.bounds);
-            ++bin.count;
-        }
-    }
+    Bins bins;
+    bins.fill(refs, binning);
     Split best;
-    for (size_t axis = 0; axis < 3; ++axis) {
-        sweep_axis(std::span(storage[axis]).first(bin_count), static_cast<int>(axis),
-                   static_cast<uint32_t>(refs.size()), best);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (binning.scale[axis] == 0.0f) continue;
+        sweep_axis(bins, binning.bin_count, axis, static_cast<uint32_t>(refs.size()), best);
     }
     return best;
 }
@@ -96,22 +115,23 @@ Split cheapest_split(std::span<const PrimRef> refs, const Binning& binning) {
 }  // namespace
 
 Bvh2 BinnedSah::build(const Mesh&, std::span<const PrimRef> refs, Task& task) const {
-    const auto partition = [&](std::span<PrimRef> node_refs, const Box& bounds,
+    // Wald 2007, section 3.5.1: a small node needs few bins.
+    const auto bins_for = [&](uint32_t count) { return std::min(bin_count, static_cast<int>(4 + count)); };
+    const auto partition = [&](std::span<PrimRef> node_refs, const NodeBounds& bounds,
                                uint32_t depth) -> std::optional<uint32_t> {
         const auto count = static_cast<uint32_t>(node_refs.size());
         const bool fits_a_leaf = count <= static_cast<uint32_t>(max_leaf_size);
         if (!must_halve(depth, count)) {
-            const Binning binning(node_refs, bin_count);
+            const Binning binning(bounds.doubled_centers, bins_for(count));
             const Split split = cheapest_split(node_refs, binning);
-            const double area = bounds.half_area();
+            const double area = bounds.box.half_area();
             const double split_cost =
                 static_cast<double>(traversal_cost) * area + kIntersectionCost * split.cost;
             const double leaf_cost = kIntersectionCost * count * area;
             if (fits_a_leaf && leaf_cost <= split_cost) return std::nullopt;
             if (split.axis >= 0) {
-                std::partition(node_refs.begin(), node_refs.end(),
-                               [&](const PrimRef& ref) { return binning.bin(ref, split.axis) < split.bin; });
-                return split.left_count;
+                return partition_refs(
+                    node_refs, [&](const PrimRef& ref) { return binning.bin(ref, split.axis) < split.bin; });
             }
         }
         if (fits_a_leaf) return std::nullopt;

@@ -24,32 +24,23 @@ std::optional<uint32_t> split_in_the_middle(std::span<PrimRef> refs, const Box& 
             return static_cast<double>(ref.bounds.lower[axis]) + static_cast<double>(ref.bounds.upper[axis]) <
                    middle;
         };
-        const auto left_count = static_cast<size_t>(std::count_if(refs.begin(), refs.end(), is_left));
-        if (left_count == 0 || left_count == refs.size()) continue;
-        std::partition(refs.begin(), refs.end(), is_left);
-        return static_cast<uint32_t>(left_count);
+        const uint32_t left_count = partition_refs(refs, is_left);
+        if (left_count != 0 && left_count != refs.size()) return left_count;
     }
     return std::nullopt;
-}
-
-/// Box of the references' centres.
-Box center_bounds(std::span<const PrimRef> refs) {
-    Box box;
-    for (const PrimRef& ref : refs) box.extend(0.5f * doubled_center(ref.bounds));
-    return box;
 }
 
 }  // namespace
 
 Bvh2 SpatialMedian::build(const Mesh&, std::span<const PrimRef> refs, Task& task) const {
-    const auto partition = [&](std::span<PrimRef> node_refs, const Box& bounds,
+    const auto partition = [&](std::span<PrimRef> node_refs, const NodeBounds& bounds,
                                uint32_t depth) -> std::optional<uint32_t> {
         const auto count = static_cast<uint32_t>(node_refs.size());
         if (count <= static_cast<uint32_t>(max_leaf_size)) return std::nullopt;
         if (must_halve(depth, count)) return count / 2;
-        if (const auto left_count = split_in_the_middle(node_refs, bounds)) return left_count;
-        if (const auto left_count = split_in_the_middle(node_refs, center_bounds(node_refs)))
-            return left_count;
+        const Box centers{0.5f * bounds.doubled_centers.lower, 0.5f * bounds.doubled_centers.upper};
+        if (const auto left_count = split_in_the_middle(node_refs, bounds.box)) return left_count;
+        if (const auto left_count = split_in_the_middle(node_refs, centers)) return left_count;
         return count / 2;
     };
     return TopDown(refs, partition, task).build();

@@ -1,17 +1,24 @@
 #include "core/bvh/top_down.h"
 
+#include "core/bvh/box4.h"
+
 namespace boxwood {
 
-Box bounds_of(std::span<const PrimRef> refs) {
-    Box box;
-    for (const PrimRef& ref : refs) box.extend(ref.bounds);
-    return box;
+NodeBounds bounds_of(std::span<const PrimRef> refs) {
+    Box4 box = empty_box4(), centers = empty_box4();
+    for (const PrimRef& ref : refs) {
+        const Float4 lower = load_lower(ref), upper = load_upper(ref);
+        box.extend(lower, upper);
+        const Float4 center = doubled_center4(lower, upper);
+        centers.extend(center, center);
+    }
+    return {box.box(), centers.box()};
 }
 
 Bvh2 finish(const NodeScratch& scratch, std::span<const uint32_t> prims) {
     Bvh2 bvh;
-    if (scratch.nodes.empty()) return bvh;
-    bvh.nodes.reserve(scratch.nodes.size());
+    if (prims.empty()) return bvh;
+    bvh.nodes.reserve(2 * prims.size() - 1);
     bvh.prims.reserve(prims.size());
     // Depth first, left before right; a pair of children gets its place when the parent is reached.
     struct Pending {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "core/base/parallel.h"
@@ -18,8 +19,12 @@ struct RefRange {
     uint32_t count() const { return end - begin; }
 };
 
-/// Box of the references.
-Box bounds_of(std::span<const PrimRef> refs);
+/// Box of the references of a node, and box of their centres, times two.
+struct NodeBounds {
+    Box box;
+    Box doubled_centers;
+};
+NodeBounds bounds_of(std::span<const PrimRef> refs);
 
 /// Centre of a box, times two: what top-down builders sort and bin by. An overflow of the sum is clamped.
 inline Vec3 doubled_center(const Box& box) {
@@ -31,9 +36,10 @@ inline Vec3 doubled_center(const Box& box) {
 /// references) stand at 2 mid - 1 and 2 mid: every mid occurs at most once, so threads need no common
 /// counter, and the result does not depend on their number.
 struct NodeScratch {
-    std::vector<Bvh2::Node> nodes;
+    std::unique_ptr<Bvh2::Node[]> nodes;  ///< not initialised: touched first by the thread that builds them
 
-    explicit NodeScratch(size_t ref_count) : nodes(ref_count == 0 ? 0 : 2 * ref_count - 1) {}
+    explicit NodeScratch(size_t ref_count)
+        : nodes(std::make_unique_for_overwrite<Bvh2::Node[]>(2 * ref_count + 1)) {}
     void set_leaf(uint32_t node, const Box& bounds, RefRange range) {
         nodes[node] = {bounds.lower, range.begin, bounds.upper, range.count()};
     }
@@ -49,6 +55,20 @@ struct NodeScratch {
 /// leaf (Dammertz, Keller 2008, section 2.3). `prims` is the primitive of each reference in build order.
 Bvh2 finish(const NodeScratch& scratch, std::span<const uint32_t> prims);
 
+/// Moves the references with is_left to the front and returns how many they are. Lomuto's scheme without a
+/// branch that depends on the outcome, which no processor could predict.
+template <class IsLeft>
+uint32_t partition_refs(std::span<PrimRef> refs, const IsLeft& is_left) {
+    uint32_t left = 0;
+    for (PrimRef& ref : refs) {
+        const PrimRef current = ref;
+        ref = refs[left];
+        refs[left] = current;
+        left += is_left(current) ? 1 : 0;
+    }
+    return left;
+}
+
 /// Whether a node at `depth` with `count` references must be split in the middle by count, so that the tree
 /// stays within kMaxDepth for every input: halving needs at most ceil(log2 count) further levels.
 inline bool must_halve(uint32_t depth, uint32_t count) {
@@ -56,8 +76,8 @@ inline bool must_halve(uint32_t depth, uint32_t count) {
 }
 
 /// Ernst, Greiner 2007, Algorithm 2: top-down construction over a copy of the references, in parallel.
-/// `partition(refs, bounds, depth)` reorders the references of a node and returns how many go left, or
-/// nothing where a leaf is cheaper. It is called from many threads.
+/// `partition(refs, bounds, depth)` with the node's NodeBounds reorders the references of a node and returns
+/// how many go left, or nothing where a leaf is cheaper. It is called from many threads.
 template <class Partition>
 class TopDown {
 public:
@@ -78,8 +98,8 @@ private:
 
     void build_node(uint32_t node, RefRange range, uint32_t depth) {
         const std::span<PrimRef> refs(refs_.data() + range.begin, range.count());
-        const Box bounds = bounds_of(refs);
-        scratch_.set_leaf(node, bounds, range);
+        const NodeBounds bounds = bounds_of(refs);
+        scratch_.set_leaf(node, bounds.box, range);
         if (range.count() == 1 || depth == Bvh2::kMaxDepth || task_.stopped()) return;
         const std::optional<uint32_t> left_count = partition_(refs, bounds, depth);
         if (!left_count) return;  // a leaf is cheaper
