@@ -24,11 +24,10 @@ struct TraceState {
     HeatScale heat;             ///< scale of the picture as it is shown
 };
 
-/// What the first ray through a pixel found. For heat also the pixel's counts.
+/// What the ray through a pixel's centre found.
 struct PixelValue {
     Hit hit;
-    double nodes = 0.0;  ///< heat: mean over the pixel's samples
-    double tests = 0.0;
+    Count count;  ///< heat: what that ray did; otherwise zero
 };
 
 /// Traces a picture in the background: a coarse one at once, then finer, then more samples, until it equals

@@ -1,0 +1,132 @@
+#include "core/render/pixel_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/render/sampling.h"
+
+namespace boxwood {
+
+namespace {
+
+/// Share of the light that comes from everywhere, so that faces seen edge-on do not turn black.
+constexpr double kAmbient = 0.2;
+/// What is lit by the whole hemisphere.
+constexpr float kAoWhite = 0.85f;
+
+/// Unit normal of the triangle's plane, on the side that `direction` comes from. In double no float triangle
+/// over- or underflows.
+DVec3 facing_normal(const Triangle& triangle, const DVec3& direction) {
+    const DVec3 a(triangle.a);
+    const DVec3 normal = glm::cross(DVec3(triangle.b) - a, DVec3(triangle.c) - a);
+    const double length = std::sqrt(glm::dot(normal, normal));
+    if (!(length > 0.0)) return -direction;
+    return glm::dot(normal, direction) > 0.0 ? normal / -length : normal / length;
+}
+
+DVec3 unit_direction(const Ray& ray) {
+    const DVec3 d(ray.direction);
+    return d / std::sqrt(glm::dot(d, d));
+}
+
+double largest(const DVec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+/// Ray of length `radius` from the hit point, which is first moved off the plane by more than its rounding
+/// errors: t and the coordinates carry 2^-24 of their size each.
+Ray leaving_ray(const Ray& ray, const Hit& hit, const DVec3& normal, const DVec3& direction, double radius) {
+    const DVec3 step = static_cast<double>(hit.t) * DVec3(ray.direction);
+    const DVec3 point = DVec3(ray.origin) + step;
+    const double offset = (largest(point) + largest(step)) * 0x1p-22;
+    Ray leaving;
+    leaving.origin = Vec3(point + offset * normal);
+    leaving.direction = Vec3(direction);
+    leaving.t_max = static_cast<float>(radius);
+    return leaving;
+}
+
+}  // namespace
+
+double scene_diagonal(const Mesh& mesh) {
+    const DVec3 extent = mesh.bounds().extent();
+    return std::sqrt(glm::dot(extent, extent));
+}
+
+PixelTracer::PixelTracer(const Mesh& mesh, double diagonal, Structure structure,
+                         const TraceSettings& settings)
+    : mesh_(mesh),
+      structure_(std::move(structure)),
+      settings_(settings),
+      frame_(camera_frame(settings.camera, static_cast<double>(settings.width) / settings.height)),
+      diagonal_(diagonal) {}
+
+bool PixelTracer::cast(uint32_t sample, PixelBatch& batch, bool counted, const Task& task) const {
+    const size_t count = batch.pixels.size();
+    const uint32_t width = static_cast<uint32_t>(settings_.width);
+    batch.rays.resize(count);
+    batch.hits.resize(count);
+    batch.counts.resize(counted ? count : 0);
+    batch.colors.clear();
+    batch.ao_rays.clear();
+    for (size_t i = 0; i < count; ++i) {
+        const uint32_t pixel = batch.pixels[i];
+        const Vec2 offset = pixel_offset(pixel, sample);
+        const double x = static_cast<double>(pixel % width) + static_cast<double>(offset.x);
+        const double y = static_cast<double>(pixel / width) + static_cast<double>(offset.y);
+        batch.rays[i] = camera_ray(frame_, x, y, settings_.width, settings_.height);
+    }
+    if (counted) {
+        structure_.closest_hits_counted(mesh_, batch.rays, batch.hits, batch.counts, settings_.mode, task);
+    } else {
+        structure_.closest_hits(mesh_, batch.rays, batch.hits, settings_.mode, task);
+    }
+    return !task.stopped();
+}
+
+bool PixelTracer::shade(uint32_t sample, PixelBatch& batch, const Task& task) const {
+    if (is_heat(settings_.shading)) return true;
+    batch.colors.resize(batch.pixels.size());
+    if (settings_.shading == Shading::Ao) return shade_ao(sample, batch, task);
+    for (size_t i = 0; i < batch.pixels.size(); ++i) {
+        const Hit& hit = batch.hits[i];
+        batch.colors[i] = hit.is_hit() ? surface_color(batch.rays[i], hit) : settings_.background;
+    }
+    return true;
+}
+
+Vec3 PixelTracer::surface_color(const Ray& ray, const Hit& hit) const {
+    const DVec3 direction = unit_direction(ray);
+    const DVec3 normal = facing_normal(mesh_.triangle(hit.prim), direction);
+    if (settings_.shading == Shading::Normals) return linear_from_srgb(Vec3(normal * 0.5 + 0.5));
+    const double cosine = -glm::dot(normal, direction);
+    return mesh_.base_color(hit.prim) * static_cast<float>(kAmbient + (1.0 - kAmbient) * cosine);
+}
+
+bool PixelTracer::shade_ao(uint32_t sample, PixelBatch& batch, const Task& task) const {
+    const uint32_t rays_each = static_cast<uint32_t>(settings_.ao_rays);
+    const double radius = static_cast<double>(settings_.ao_radius) * diagonal_;
+    batch.ao_owners.clear();
+    for (size_t i = 0; i < batch.pixels.size(); ++i) {
+        const Hit& hit = batch.hits[i];
+        if (!hit.is_hit()) continue;
+        const DVec3 normal = facing_normal(mesh_.triangle(hit.prim), unit_direction(batch.rays[i]));
+        for (uint32_t k = 0; k < rays_each; ++k) {
+            const Vec2 point = sequence_point(batch.pixels[i], sample * rays_each + k, 1);
+            const DVec3 direction = cosine_direction(normal, point);
+            batch.ao_rays.push_back(leaving_ray(batch.rays[i], hit, normal, direction, radius));
+            batch.ao_owners.push_back(static_cast<uint32_t>(i));
+        }
+    }
+    batch.occluded.resize(batch.ao_rays.size());
+    structure_.any_hits(mesh_, batch.ao_rays, batch.occluded, settings_.mode, task);
+    if (task.stopped()) return false;
+
+    for (size_t i = 0; i < batch.pixels.size(); ++i)
+        batch.colors[i] = batch.hits[i].is_hit() ? Vec3(0.0f) : settings_.background;
+    const float share = kAoWhite / static_cast<float>(rays_each);
+    for (size_t k = 0; k < batch.ao_rays.size(); ++k)
+        if (batch.occluded[k] == 0) batch.colors[batch.ao_owners[k]] += share;
+    return true;
+}
+
+}  // namespace boxwood

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/render/trace_image.h"
+
+namespace boxwood {
+
+/// Some pixels of a picture on their way through one sample: entry i of each array belongs to pixels[i].
+/// Kept between calls for its memory.
+struct PixelBatch {
+    std::vector<uint32_t> pixels;  ///< y * width + x
+    std::vector<Ray> rays;
+    std::vector<Hit> hits;
+    std::vector<Count> counts;  ///< empty unless counted
+    std::vector<Vec3> colors;   ///< linear RGB; empty for heat
+
+    std::vector<Ray> ao_rays;
+    std::vector<uint32_t> ao_owners;  ///< for each hemisphere ray the index of its pixel in `pixels`
+    std::vector<uint8_t> occluded;    ///< for each hemisphere ray
+
+    uint64_t ray_count() const { return rays.size() + ao_rays.size(); }
+};
+
+/// Length of the diagonal of the mesh's box, in world units; 0 without triangles.
+double scene_diagonal(const Mesh& mesh);
+
+/// Casts and shades the samples of a picture; const, so all threads share one. Refers to the mesh.
+class PixelTracer {
+public:
+    /// `diagonal`: scene_diagonal(mesh).
+    PixelTracer(const Mesh& mesh, double diagonal, Structure structure, const TraceSettings& settings);
+
+    const TraceSettings& settings() const { return settings_; }
+
+    /// Casts the primary rays of `sample` through batch.pixels: fills rays, hits, and counts if `counted`.
+    /// False if task.stop was requested: the batch is then half filled.
+    bool cast(uint32_t sample, PixelBatch& batch, bool counted, const Task& task) const;
+
+    /// Fills batch.colors after cast; for `ao` casts the hemisphere rays. Does nothing for heat. False as
+    /// above.
+    bool shade(uint32_t sample, PixelBatch& batch, const Task& task) const;
+
+private:
+    bool shade_ao(uint32_t sample, PixelBatch& batch, const Task& task) const;
+    Vec3 surface_color(const Ray& ray, const Hit& hit) const;
+
+    const Mesh& mesh_;
+    Structure structure_;
+    TraceSettings settings_;
+    CameraFrame frame_;
+    double diagonal_;
+};
+
+}  // namespace boxwood
