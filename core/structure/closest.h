@@ -21,17 +21,18 @@ public:
         : near_origin_(ray.origin),
           far_origin_(ray.origin),
           inverse_(1.0 / DVec3(ray.direction)),
+          padded_inverse_(inverse_ * kPad),
           t_min_(static_cast<double>(ray.t_min)) {
-        for (int axis = 0; axis < 3; ++axis) negative_[axis] = std::signbit(ray.direction[axis]);
+        for (int axis = 0; axis < 3; ++axis) negative_[axis] = std::signbit(ray.direction[axis]) ? 1 : 0;
     }
 
-    bool is_negative(int axis) const { return negative_[axis]; }
+    bool is_negative(int axis) const { return negative_[axis] != 0; }
 
     /// From here on every box counts as larger by `margin` on each side.
     void widen(double margin) {
         for (int axis = 0; axis < 3; ++axis) {
-            near_origin_[axis] += negative_[axis] ? -margin : margin;
-            far_origin_[axis] -= negative_[axis] ? -margin : margin;
+            near_origin_[axis] += is_negative(axis) ? -margin : margin;
+            far_origin_[axis] -= is_negative(axis) ? -margin : margin;
         }
     }
 
@@ -45,12 +46,13 @@ public:
     /// Traversal", JCGT 2(2), 2013, section 3. A NaN (origin on the plane of a face that the ray is parallel
     /// to) keeps the other bound: the ray is inside.
     bool meets(const Vec3& lower, const Vec3& upper, double limit, double& entry) const {
+        const Vec3* const planes[2] = {&lower, &upper};
         double t0 = t_min_, t1 = limit;
         for (int axis = 0; axis < 3; ++axis) {
-            const double near_plane = static_cast<double>(negative_[axis] ? upper[axis] : lower[axis]);
-            const double far_plane = static_cast<double>(negative_[axis] ? lower[axis] : upper[axis]);
+            const double near_plane = static_cast<double>((*planes[negative_[axis]])[axis]);
+            const double far_plane = static_cast<double>((*planes[1 - negative_[axis]])[axis]);
             const double near = (near_plane - near_origin_[axis]) * inverse_[axis];
-            const double far = (far_plane - far_origin_[axis]) * inverse_[axis] * kPad;
+            const double far = (far_plane - far_origin_[axis]) * padded_inverse_[axis];
             t0 = near > t0 ? near : t0;
             t1 = far < t1 ? far : t1;
         }
@@ -62,9 +64,9 @@ public:
 
 private:
     DVec3 near_origin_, far_origin_;
-    DVec3 inverse_;
+    DVec3 inverse_, padded_inverse_;
     double t_min_;
-    bool negative_[3];
+    uint32_t negative_[3];  ///< 1 where the direction's sign bit is set
 };
 
 /// The search for the nearest hit of one ray: box tests, triangle tests and the best hit so far.
