@@ -1,0 +1,18 @@
+#include "core/scene/generate/built_in.h"
+
+namespace boxwood {
+
+const std::vector<BuiltInScene>& built_in_scenes() {
+    static const std::vector<BuiltInScene> scenes = {
+        {"atrium", "A court of two storeys with columns, arches, vaults and stairs among large walls.", "",
+         make_atrium},
+        {"spaceship", "A hull of really long thin triangles with small detail, turned by 45 degrees.", "",
+         make_spaceship},
+        {"cornell", "The Cornell box: a room with a light and two blocks.", "", make_cornell},
+        {"two-triangles", "Two long slanting triangles whose boxes overlap.", "", make_two_triangles},
+        {"terrain", "A smooth, dense height field of any size.", "tris=N", make_terrain},
+    };
+    return scenes;
+}
+
+}  // namespace boxwood

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/scene/scene.h"
+
+namespace boxwood {
+
+// The generators of the built-in scenes: `make` of BuiltInScene. Each fills mesh and camera, and gives the
+// same bits on every compiler: random numbers are of rng.h; sines are taken in double and rounded to float,
+// which hides the last bit in which libraries differ. After a stop the mesh is unfinished.
+
+/// A court of two storeys with columns, arches, vaults, stairs and an open roof; units are metres.
+void make_atrium(const SceneOptions& options, Scene& scene, Task& task);
+/// A ship of long thin hull plates with small detail, turned by 45 degrees about (1, 1, 1).
+void make_spaceship(const SceneOptions& options, Scene& scene, Task& task);
+/// The Cornell box: room, light and two blocks.
+void make_cornell(const SceneOptions& options, Scene& scene, Task& task);
+/// Two long slanting triangles whose boxes overlap.
+void make_two_triangles(const SceneOptions& options, Scene& scene, Task& task);
+/// Smooth, dense height field. Option tris: about how many triangles, "k" and "M" for thousands and millions.
+void make_terrain(const SceneOptions& options, Scene& scene, Task& task);
+
+}  // namespace boxwood

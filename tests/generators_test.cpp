@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stop_token>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/scene/mesh_check.h"
+#include "core/scene/mesh_hash.h"
+#include "core/scene/scene.h"
+
+namespace boxwood {
+namespace {
+
+Scene make(const std::string& name, const SceneOptions& options = {}) {
+    Scene scene;
+    Task task;
+    for (const BuiltInScene& built_in : built_in_scenes())
+        if (name == built_in.name) built_in.make(options, scene, task);
+    return scene;
+}
+
+Scene make_terrain_of(const std::string& tris) { return make("terrain", {.values = {{"tris", tris}}}); }
+
+/// Longest edge divided by the height over it: 1.15 is equilateral.
+double edge_to_height(const Triangle& t) {
+    const DVec3 a(t.a), b(t.b), c(t.c);
+    const double edge = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+    return edge * edge / glm::length(glm::cross(b - a, c - a));
+}
+
+class EveryBuiltInScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(EveryBuiltInScene, HasOnlyTrianglesThatCanBeHit) {
+    Scene scene = make(GetParam());
+    const size_t made = scene.mesh.triangles.size();
+    Task task;
+    check_mesh(scene.mesh, task);
+    EXPECT_EQ(scene.mesh.triangles.size(), made);
+    EXPECT_TRUE(task.skipped.counts().empty());
+    EXPECT_GT(made, 0u);
+}
+
+TEST_P(EveryBuiltInScene, HasNamedColouredObjectsThatAreUsed) {
+    const Mesh mesh = make(GetParam()).mesh;
+    ASSERT_EQ(mesh.object.size(), mesh.triangles.size());
+    std::vector<size_t> count(mesh.objects.size());
+    for (const uint32_t object : mesh.object) {
+        ASSERT_LT(object, mesh.objects.size());
+        ++count[object];
+    }
+    for (size_t i = 0; i < count.size(); ++i) {
+        const MeshObject& object = mesh.objects[i];
+        EXPECT_FALSE(object.name.empty());
+        EXPECT_GT(count[i], 0u) << object.name;
+        EXPECT_TRUE(object.base_color != Vec3(0.0f)) << object.name;
+        for (int k = 0; k < 3; ++k) EXPECT_TRUE(object.base_color[k] >= 0.0f && object.base_color[k] <= 1.0f);
+    }
+}
+
+TEST_P(EveryBuiltInScene, ComesWithACameraThatLooksAtIt) {
+    const Scene scene = make(GetParam());
+    ASSERT_TRUE(scene.camera.has_value());
+    EXPECT_TRUE(scene.mesh.bounds().contains(Box{scene.camera->target, scene.camera->target}) ||
+                GetParam() == std::string("two-triangles"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Generators, EveryBuiltInScene,
+                         testing::Values("atrium", "spaceship", "cornell", "two-triangles", "terrain"));
+
+/// The hashes are the same for g++ and clang++, any number of threads, and every run. A change of a generator
+/// changes its hash here and its pictures in screenshots/.
+TEST(Generators, GiveTheSameBitsEverywhere) {
+    const auto hash = [](const std::string& name) { return content_hash(make(name).mesh); };
+    EXPECT_EQ(hash("atrium"), 12361005846590520974ull);
+    EXPECT_EQ(hash("spaceship"), 12369554280791927980ull);
+    EXPECT_EQ(hash("cornell"), 15223261984855378444ull);
+    EXPECT_EQ(hash("two-triangles"), 12860931664810968192ull);
+    const uint64_t terrain = content_hash(make_terrain_of("20k").mesh);
+    EXPECT_EQ(terrain, 13330707679621626291ull);
+    const ThreadLimit one_thread(1);
+    EXPECT_EQ(content_hash(make_terrain_of("20k").mesh), terrain);
+}
+
+TEST(ContentHash, SeesEveryArray) {
+    const Mesh mesh = [] {
+        Mesh m = make("two-triangles").mesh;
+        m.source_prim = {0, 1};
+        return m;
+    }();
+    std::vector<Mesh> changed(8, mesh);
+    changed[0].positions[3].y += 1.0f;
+    changed[1].triangles[1] = UVec3(4, 3, 5);
+    changed[2].source_prim[1] = 2;
+    changed[3].object[1] = 0;
+    changed[4].objects[0].name += "x";
+    changed[5].objects[1].base_color.x += 0.5f;
+    changed[6].points.positions.push_back(Vec3(0.0f));
+    changed[7].points.normals.push_back(Vec3(0.0f));
+    for (size_t i = 0; i < changed.size(); ++i) EXPECT_NE(content_hash(changed[i]), content_hash(mesh)) << i;
+}
+
+TEST(Atrium, HasAboutAsManyTrianglesAsTheSponzaAtriumOfThePapersAndACameraInside) {
+    const Scene scene = make("atrium");
+    EXPECT_NEAR(static_cast<double>(scene.mesh.triangle_count()), 66454.0, 700.0);
+    EXPECT_TRUE(scene.mesh.bounds().contains(Box{scene.camera->eye, scene.camera->eye}));
+}
+
+TEST(Spaceship, IsMadeOfReallyLongThinTriangles) {
+    const Mesh mesh = make("spaceship").mesh;
+    EXPECT_GE(mesh.triangle_count(), 60000u);
+    EXPECT_LE(mesh.triangle_count(), 120000u);
+    size_t above_50 = 0;
+    for (uint32_t prim = 0; prim < mesh.triangle_count(); ++prim)
+        if (edge_to_height(mesh.triangle(prim)) > 50.0) ++above_50;
+    EXPECT_GT(static_cast<double>(above_50), 0.5 * static_cast<double>(mesh.triangle_count()));
+}
+
+TEST(Spaceship, IsTurnedSoThatItsLongPlatesFillTheirBoxes) {
+    // The largest box volume of an edge: far above V / 2^14, the edge volume heuristic's default threshold.
+    const Mesh mesh = make("spaceship").mesh;
+    const double limit = mesh.bounds().volume() / 16384.0;
+    size_t above = 0;
+    for (uint32_t prim = 0; prim < mesh.triangle_count(); ++prim)
+        if (mesh.triangle(prim).bounds().volume() > limit) ++above;
+    EXPECT_GT(above, mesh.triangle_count() / 10);
+}
+
+TEST(Terrain, RoundsTheNumberOfTrianglesToTheNearestGrid) {
+    EXPECT_EQ(make("terrain").mesh.triangle_count(), 2u * 224 * 224);
+    EXPECT_EQ(make_terrain_of("2").mesh.triangle_count(), 2u);
+    EXPECT_EQ(make_terrain_of("1").mesh.triangle_count(), 2u);
+    EXPECT_EQ(make_terrain_of("200").mesh.triangle_count(), 200u);
+    EXPECT_EQ(make_terrain_of("20k").mesh.triangle_count(), 20000u);
+    EXPECT_EQ(make_terrain_of("0.125M").mesh.triangle_count(), 125000u);
+}
+
+TEST(Terrain, RefusesWhatIsNoNumberOfTriangles) {
+    for (const char* tris : {"", "0", "-5", "many", "10G", "1e", "50.1M", "nan", "inf", "1e999"}) {
+        try {
+            make_terrain_of(tris);
+            ADD_FAILURE() << tris;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.exit_code(), ExitCode::WrongUsage) << tris;
+        }
+    }
+}
+
+TEST(Terrain, IsAHeightFieldThatLooksUp) {
+    const Mesh mesh = make_terrain_of("20k").mesh;
+    for (uint32_t prim = 0; prim < mesh.triangle_count(); ++prim) {
+        const Triangle t = mesh.triangle(prim);
+        EXPECT_GT(glm::cross(DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a)).y, 0.0);
+    }
+}
+
+TEST(Terrain, StopsWhenAsked) {
+    std::stop_source source;
+    source.request_stop();
+    Task task(source.get_token());
+    Scene scene;
+    built_in_scenes().back().make({.values = {{"tris", "2M"}}}, scene, task);
+    EXPECT_EQ(task.done.load(), 0u);
+}
+
+}  // namespace
+}  // namespace boxwood
