@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "core/base/assert.h"
+
+namespace boxwood {
+
+/// A difference of two floats without error: high + low.
+struct ExactDifference {
+    double high, low;
+
+    ExactDifference(double a, double b) : high(a - b) {
+        const double b_part = a - high;
+        const double a_part = high + b_part;
+        low = (a - a_part) + (b_part - b);
+    }
+};
+
+/// Sum of doubles without error, as a nonoverlapping expansion in ascending order of magnitude, without
+/// zeros. Holds for sums of products of up to four floats: the smallest unit is then 2^-596 and the largest
+/// term below 2^512, far from the ends of double. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and
+/// Fast Robust Geometric Predicates", Discrete & Computational Geometry 1997, figure 6 (grow-expansion, with
+/// zero elimination) and theorem 10.
+class ExactSum {
+public:
+    void add(double x) {
+        int kept = 0;
+        for (int i = 0; i < size_; ++i) {
+            const double term = terms_[index(i)];
+            const double sum = x + term;
+            const double term_part = sum - x;
+            const double rest = (x - (sum - term_part)) + (term - term_part);
+            x = sum;
+            if (rest != 0.0) terms_[index(kept++)] = rest;
+        }
+        if (x != 0.0) {
+            BOXWOOD_ASSERT(kept < kCapacity);
+            terms_[index(kept++)] = x;
+        }
+        size_ = kept;
+    }
+    void add_product(double a, double b) {
+        const double product = a * b;
+        add(std::fma(a, b, -product));
+        add(product);
+    }
+    void add_product(const ExactDifference& a, double b) {
+        if (a.low != 0.0) add_product(a.low, b);
+        add_product(a.high, b);
+    }
+    void add_product(const ExactDifference& a, const ExactDifference& b) {
+        if (b.low != 0.0) add_product(a, b.low);
+        add_product(a, b.high);
+    }
+    void add_product(const ExactSum& a, const ExactDifference& b) {
+        for (int i = 0; i < a.size_; ++i) add_product(b, a.terms_[index(i)]);
+    }
+
+    /// -1, 0 or 1: terms do not overlap, so the largest decides.
+    int sign() const { return size_ == 0 ? 0 : terms_[index(size_ - 1)] > 0.0 ? 1 : -1; }
+    /// The sum, to a relative error of at most 2^-51; exactly 0 for 0.
+    double value() const {
+        double sum = 0.0;
+        for (int i = 0; i < size_; ++i) sum += terms_[index(i)];
+        return sum;
+    }
+
+private:
+    /// Three products of a triangle's corner areas (16 terms each) with a difference (2 terms), 2 for each
+    /// product.
+    static constexpr int kCapacity = 3 * 16 * 2 * 2;
+    static size_t index(int i) { return static_cast<size_t>(i); }
+
+    std::array<double, kCapacity> terms_;
+    int size_ = 0;
+};
+
+}  // namespace boxwood

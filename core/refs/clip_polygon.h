@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/base/box.h"
+#include "core/scene/mesh.h"
+
+namespace boxwood {
+
+/// The smallest box of floats that contains the part of the triangle inside the closed `box`; empty if they
+/// have no point in common. No face lies inside the exact part's box, none lies a whole ulp outside it, and
+/// faces of `box` that cut the triangle come back bit for bit. The result does not depend on the order of the
+/// corners. Finite floats only; holds for every size and offset, for triangles without area too.
+///
+/// Sutherland, Hodgman, "Reentrant Polygon Clipping", CACM 1974, for the task. Differs: no polygon is cut
+/// plane by plane, whose errors would add up. Each corner of the part is computed from the triangle's own
+/// corners and the box's own planes; what rounding leaves open is decided exactly.
+Box clip_bounds(const Triangle& triangle, const Box& box);
+
+}  // namespace boxwood

@@ -1,0 +1,170 @@
+#include "core/refs/clip_polygon.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/rng.h"
+#include "tests/support/exact_clip.h"
+
+namespace boxwood {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// The face must be the float next to the exact extreme: not inside it, less than an ulp outside.
+void expect_smallest_box(const Triangle& triangle, const Box& box) {
+    const std::vector<ExactPoint> part = exact_clip(triangle, box);
+    const Box result = clip_bounds(triangle, box);
+    ASSERT_EQ(result.is_empty(), part.empty());
+    if (part.empty()) return;
+    for (int axis = 0; axis < 3; ++axis) {
+        const size_t k = static_cast<size_t>(axis);
+        const auto [least, largest] = std::minmax_element(
+            part.begin(), part.end(), [&](const ExactPoint& a, const ExactPoint& b) { return a[k] < b[k]; });
+        const mpq_class lower = (*least)[k], upper = (*largest)[k];
+        const float next = std::nextafter(result.lower[axis], kInfinity);
+        const float previous = std::nextafter(result.upper[axis], -kInfinity);
+        ASSERT_LE(mpq_class(double{result.lower[axis]}), lower);
+        ASSERT_TRUE(std::isinf(next) || mpq_class(double{next}) > lower);
+        ASSERT_GE(mpq_class(double{result.upper[axis]}), upper);
+        ASSERT_TRUE(std::isinf(previous) || mpq_class(double{previous}) < upper);
+    }
+}
+
+Vec3 random_point(Rng& rng, float lower, float upper) {
+    const float x = rng.next(lower, upper), y = rng.next(lower, upper), z = rng.next(lower, upper);
+    return {x, y, z};
+}
+
+Box random_box(Rng& rng, float lower, float upper) {
+    Box box;
+    box.extend(random_point(rng, lower, upper));
+    box.extend(random_point(rng, lower, upper));
+    return box;
+}
+
+Triangle random_triangle(Rng& rng, float lower, float upper) {
+    const Vec3 a = random_point(rng, lower, upper), b = random_point(rng, lower, upper);
+    return {a, b, random_point(rng, lower, upper)};
+}
+
+/// A whole number of -2 to 2 on each axis: corners on planes, edges in faces, through edges and corners.
+Vec3 lattice_point(Rng& rng) {
+    Vec3 p;
+    for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(rng.next_index(5)) - 2.0f;
+    return p;
+}
+
+TEST(ClipBounds, HandComputed) {
+    const Triangle triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+    // Cut at x = 1: the part has the corners (0,0), (1,0), (1,3), (0,4).
+    EXPECT_EQ(clip_bounds(triangle, {{0, 0, 0}, {1, 4, 0}}), (Box{{0, 0, 0}, {1, 4, 0}}));
+    EXPECT_EQ(clip_bounds(triangle, {{1, 0, 0}, {4, 4, 0}}), (Box{{1, 0, 0}, {4, 3, 0}}));
+    // The box's edge along z at (1, 1) passes through the inside.
+    EXPECT_EQ(clip_bounds(triangle, {{1, 1, -1}, {9, 9, 1}}), (Box{{1, 1, 0}, {3, 3, 0}}));
+    EXPECT_TRUE(clip_bounds(triangle, {{3, 3, 0}, {4, 4, 0}}).is_empty());
+    EXPECT_TRUE(clip_bounds(triangle, {{0, 0, 1}, {4, 4, 2}}).is_empty());
+    // A common point, and no more.
+    EXPECT_EQ(clip_bounds(triangle, {{2, 2, 0}, {4, 4, 0}}), (Box{{2, 2, 0}, {2, 2, 0}}));
+    // x = 1/3 is no float, its nearest float lies above: the faces are the floats around it.
+    const Triangle slope{{0, 0, 0}, {1, 3, 0}, {0, 3, 0}};
+    EXPECT_EQ(clip_bounds(slope, {{0, 0, 0}, {1, 1, 0}}).upper.x, 1.0f / 3.0f);
+    const Triangle mirrored{{0, 0, 0}, {-1, 3, 0}, {0, 3, 0}};
+    EXPECT_EQ(clip_bounds(mirrored, {{-1, 0, 0}, {0, 1, 0}}).lower.x, -1.0f / 3.0f);
+}
+
+TEST(ClipBounds, IsTheSmallestBoxOnRandomTriangles) {
+    Rng rng(1);
+    for (int i = 0; i < 1500; ++i) expect_smallest_box(random_triangle(rng, -1, 1), random_box(rng, -1, 1));
+}
+
+TEST(ClipBounds, IsTheSmallestBoxWhereCornersAndEdgesLieInPlanes) {
+    Rng rng(2);
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 a = lattice_point(rng), b = lattice_point(rng), c = lattice_point(rng);
+        Box box;
+        box.extend(lattice_point(rng));
+        box.extend(lattice_point(rng));
+        expect_smallest_box({a, b, c}, box);  // also triangles and boxes without area
+    }
+}
+
+TEST(ClipBounds, IsTheSmallestBoxWhereEdgesAlmostPassThroughTheBoxsEdges) {
+    Rng rng(3);
+    for (int i = 0; i < 1500; ++i) {
+        const Box box = random_box(rng, -1, 1);
+        Triangle triangle = random_triangle(rng, -1, 1);
+        const Vec3 corner(rng.next() < 0.5f ? box.lower.x : box.upper.x,
+                          rng.next() < 0.5f ? box.lower.y : box.upper.y, rng.next(-1, 1));
+        triangle.b = corner + (corner - triangle.a);  // ab passes the corner at the distance of a rounding
+        expect_smallest_box(triangle, box);
+    }
+}
+
+TEST(ClipBounds, IsTheSmallestBoxOnSlivers) {
+    Rng rng(4);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 a = random_point(rng, -1, 1), b = random_point(rng, -1, 1);
+        Vec3 c = a + (b - a) * rng.next();  // off the line by a rounding
+        if (i % 2 == 0) c.x = std::nextafter(c.x, 9.0f);
+        expect_smallest_box({a, b, c}, random_box(rng, -1, 1));
+    }
+}
+
+TEST(ClipBounds, IsTheSmallestBoxFarFromTheOrigin) {
+    Rng rng(5);
+    for (int i = 0; i < 1000; ++i) {
+        const float offset = i % 2 == 0 ? 1e7f : -1e7f;
+        expect_smallest_box(random_triangle(rng, offset - 20, offset + 20),
+                            random_box(rng, offset - 20, offset + 20));
+    }
+}
+
+TEST(ClipBounds, IsTheSmallestBoxAcrossTheOriginAndForAllMagnitudes) {
+    Rng rng(6);
+    const auto any_float = [&] {
+        const float mantissa = rng.next(-1, 1);
+        return rng.next() < 0.1f ? 0.0f : std::ldexp(mantissa, static_cast<int>(rng.next_index(278)) - 149);
+    };
+    const auto any_point = [&](int i) {
+        Vec3 p;
+        for (int axis = 0; axis < 3; ++axis)
+            p[axis] = i % 2 == 0 ? any_float()
+                                 : std::ldexp(rng.next(-1, 1), static_cast<int>(rng.next_index(60)) - 60);
+        return p;
+    };
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 a = any_point(i), b = any_point(i), c = any_point(i);
+        Box box;
+        box.extend(any_point(i));
+        box.extend(any_point(i));
+        expect_smallest_box({a, b, c}, box);
+        expect_smallest_box({a, -a, c}, {-glm::abs(b), glm::abs(b)});  // ab passes the origin
+    }
+}
+
+TEST(ClipBounds, TheEndsOfFloatDoNotOverflow) {
+    const float most = std::numeric_limits<float>::max(), least = std::numeric_limits<float>::denorm_min();
+    const Triangle huge{{-most, -most, -most}, {most, most, -most}, {most, -most, most}};
+    expect_smallest_box(huge, {{-1, -1, -1}, {1, 1, 1}});
+    expect_smallest_box(huge, {{-most, -most, -most}, {0, most, most}});
+    expect_smallest_box(huge, {{0, -most, 1e30f}, {most, most, most}});
+    const Triangle tiny{{-least, 0, least}, {3 * least, -0.0f, 2 * least}, {least, 7 * least, 0}};
+    expect_smallest_box(tiny, {{0, 0, -0.0f}, {2 * least, 3 * least, least}});
+}
+
+TEST(ClipBounds, DoesNotDependOnTheOrderOfCorners) {
+    Rng rng(7);
+    for (int i = 0; i < 500; ++i) {
+        const Triangle t = random_triangle(rng, -1, 1);
+        const Box box = random_box(rng, -1, 1);
+        const Box first = clip_bounds(t, box);
+        EXPECT_EQ(first, clip_bounds({t.b, t.c, t.a}, box));
+        EXPECT_EQ(first, clip_bounds({t.b, t.a, t.c}, box));
+    }
+}
+
+}  // namespace
+}  // namespace boxwood
