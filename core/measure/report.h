@@ -10,8 +10,8 @@
 namespace boxwood {
 
 /// Value of a cell. A number that is not finite is `null` in JSON and "-" in the table.
-using ReportValue =
-    std::variant<uint64_t, double, bool, std::string, std::map<std::string, uint64_t>, std::vector<std::string>>;
+using ReportValue = std::variant<uint64_t, double, bool, std::string, std::map<std::string, uint64_t>,
+                                 std::vector<std::string>>;
 
 /// One row: keys and values in the order of the columns. Keys are those of the design: `scene`, `recipe`,
 /// `triangles`, ... Times in milliseconds, sizes in bytes.
@@ -38,8 +38,8 @@ struct Report {
 /// names hold.
 std::string to_json(const Report& report);
 
-/// The rows as aligned columns for people, under a line of the keys: every key of any row is a column, numbers
-/// stand to the right. Empty for no rows.
+/// The rows as aligned columns for people, under a line of the keys: every key of any row is a column,
+/// numbers stand to the right. Empty for no rows.
 std::string to_table(const std::vector<ReportRow>& rows);
 
 }  // namespace boxwood
