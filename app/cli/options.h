@@ -16,8 +16,8 @@ struct PixelSize {
     int height = 720;
 };
 
-/// The options of one command: each is bound to a variable that keeps its value where the option is not given.
-/// Names as CLI11 takes them: "-o,--output". Lives as long as the variables.
+/// The options of one command: each is bound to a variable that keeps its value where the option is not
+/// given. Names as CLI11 takes them: "-o,--output". Lives as long as the variables.
 class Options {
 public:
     /// `name` as typed after "boxwood"; `description`: sentences for the head of the help.
@@ -34,7 +34,8 @@ public:
     void text(const char* names, const char* placeholder, std::string& value, const char* help);
     void required_text(const char* names, const char* placeholder, std::string& value, const char* help);
     /// May be given several times; each time one value.
-    void texts(const char* names, const char* placeholder, std::vector<std::string>& values, const char* help);
+    void texts(const char* names, const char* placeholder, std::vector<std::string>& values,
+               const char* help);
     void flag(const char* names, bool& value, const char* help);
     /// A whole number from lower to upper.
     void integer(const char* names, int& value, int lower, int upper, const char* help);

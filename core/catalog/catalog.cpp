@@ -1,0 +1,55 @@
+#include "core/catalog/catalog.h"
+
+#include <array>
+
+#include "core/brute_force/brute_force.h"
+#include "core/bvh/binned_sah.h"
+#include "core/bvh/spatial_median.h"
+#include "core/bvh/sweep_sah.h"
+#include "core/refs/whole_boxes.h"
+
+namespace boxwood {
+namespace {
+
+constexpr CatalogEntry kReferences[] = {
+    row<WholeBoxes>("whole", "one box for each triangle", "Kerbl, lecture, \"Bounding volumes\""),
+};
+
+constexpr CatalogEntry kBuilders[] = {
+    row<BruteForceBuilder>("none", "brute force", "Kerbl, lecture, \"Structure: none\""),
+    row<SpatialMedian>("bvh-spatial-median", "BVH, spatial median",
+                       "Kay and Kajiya 1986; Ernst and Greiner 2007, 3.2"),
+    row<BinnedSah>("bvh-binned-sah", "BVH, binned SAH", "Wald 2007, section 3"),
+    row<SweepSah>("bvh-sweep-sah", "BVH, SAH sweep", "Wald, Boulos and Shirley 2007, section 4"),
+};
+
+constexpr std::array<CatalogEntry, 0> kTransforms = {};
+
+}  // namespace
+
+const CatalogEntry* Catalog::find(const std::string& id) const {
+    for (const std::span<const CatalogEntry> table : {references, builders, transforms})
+        for (const CatalogEntry& entry : table)
+            if (id == entry.id) return &entry;
+    return nullptr;
+}
+
+std::vector<std::string> Catalog::ids() const {
+    std::vector<std::string> ids;
+    for (const std::span<const CatalogEntry> table : {references, builders, transforms})
+        for (const CatalogEntry& entry : table) ids.push_back(entry.id);
+    return ids;
+}
+
+const Catalog& catalog() {
+    static const Catalog catalog{kReferences, kBuilders, kTransforms};
+    return catalog;
+}
+
+std::span<const CatalogEntry> reference_catalog() { return kReferences; }
+std::span<const CatalogEntry> builder_catalog() { return kBuilders; }
+std::span<const CatalogEntry> transform_catalog() { return kTransforms; }
+
+const CatalogEntry* find_entry(const std::string& id) { return catalog().find(id); }
+
+}  // namespace boxwood
