@@ -55,6 +55,8 @@ using Framebuffer = GlObject<FramebufferKind>;
 Buffer make_buffer(std::span<const std::byte> bytes);
 /// A buffer of this many zero bytes, at least 16, for the GPU to write.
 Buffer make_empty_buffer(size_t byte_count);
+/// A buffer of this many bytes, for glNamedBufferSubData.
+Buffer make_dynamic_buffer(size_t byte_count);
 VertexArray make_vertex_array();
 Framebuffer make_framebuffer();
 /// Two-dimensional, one level, linear filter, clamped to its edge.

@@ -28,8 +28,8 @@ public:
     void set(const char* name, const Vec2& value) const;
     void set(const char* name, const Vec3& value) const;
     void set(const char* name, const Vec4& value) const;
-    void set(const char* name, const glm::mat4& value) const;
     void set(const char* name, std::span<const Vec3> values) const;
+    void set(const char* name, std::span<const Vec4> values) const;
 
 private:
     GLint location(const char* name) const { return glGetUniformLocation(program_.name(), name); }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "app/gl/picture_renderer.h"
 #include "app/gl/render_target.h"
 #include "app/viewer/draw_list.h"
 #include "core/refs/prim_ref.h"
@@ -12,8 +13,6 @@
 #include "core/structure/node_list.h"
 
 namespace boxwood {
-
-struct Image;
 
 /// Draws the 3D view. What a scene or a structure needs is uploaded once, by the set functions; draw()
 /// uploads nothing that grows with the scene. Made and used with the same context current.
@@ -29,9 +28,9 @@ public:
     /// The node boxes, one buffer in level order.
     void set_boxes(const LevelTable& levels, const BoxValues& values);
     /// Which primitives are split (red) and the boxes of their references.
-    void set_references(std::span<const PrimRef> refs);
+    void set_references(std::span<const PrimRef> refs, size_t triangle_count);
     /// A picture that stands behind boxes and lines in place of the background; uploaded where `version`
-    /// differs from the last one's. Nothing: clear_picture().
+    /// differs from the last one's; versions begin with 1. Nothing: clear_picture().
     void set_picture(const Image& image, uint64_t version);
     void clear_picture();
 
@@ -44,24 +43,6 @@ public:
 
     uint64_t upload_count() const;  ///< uploads so far, by the set functions
     size_t byte_count() const;      ///< of memory held on the GPU for the scene and its boxes
-
-private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
-};
-
-/// Draws a picture into a rect of the target, over what is there. Keeps one picture on the GPU and uploads it
-/// where `version` differs from the last one's.
-class PictureRenderer {
-public:
-    PictureRenderer();
-    ~PictureRenderer();
-    PictureRenderer(const PictureRenderer&) = delete;
-    PictureRenderer& operator=(const PictureRenderer&) = delete;
-
-    /// opacity in [0, 1]. Scaled to fill the rect.
-    void draw(const Image& image, uint64_t version, float opacity, RenderTarget& target,
-              const PixelRect& rect);
 
 private:
     struct Impl;

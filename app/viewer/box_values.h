@@ -25,8 +25,8 @@ struct BoxValues {
     size_t byte_count() const { return (references.size() + sah_share.size()) * sizeof(float); }
 };
 
-/// A node's term of the SAH cost: half area times 1 (inner node: one visit) or times its references (leaf:
-/// one test each). Where every box has zero area all terms count their visits and tests alone.
+/// A node's term of the SAH cost: the probability that a ray meets it, times one visit (inner node) or its
+/// tests (leaf); see core/structure/sah.h.
 BoxValues make_box_values(const NodeList& list);
 
 }  // namespace boxwood

@@ -9,6 +9,7 @@
 #include "app/viewer/state.h"
 #include "core/base/box.h"
 #include "core/base/vec.h"
+#include "core/render/color_map.h"
 
 namespace boxwood {
 
@@ -21,17 +22,14 @@ enum class MeshLook : uint8_t {
 
 inline constexpr size_t kPaletteSize = 64;
 
-/// The colours of a value: linear RGB, palette[0] for the lower end of `range`.
+/// What the colours of node boxes mean, and how: as the legend shows it.
 struct ColorScale {
     BoxColor meaning = BoxColor::Level;
-    ValueRange range;
-    bool logarithmic = false;
-    std::array<Vec3, kPaletteSize> palette{};
+    ValueScale scale;                          ///< of levels, references, or shares in [0, 1]
+    std::array<Vec3, kPaletteSize> palette{};  ///< linear RGB along the scale
 
-    /// Where a value lies between the ends of the range, clamped to [0, 1]; 0 where the range is empty.
-    float position(float value) const;
     /// Interpolated; linear RGB.
-    Vec3 color(float value) const;
+    Vec3 color(double value) const;
 };
 
 /// Boxes that are drawn: of the instance buffer in level order the entries [0, end), without the inner nodes
@@ -53,15 +51,19 @@ struct DrawList {
     std::optional<BoxSelection> boxes;
     bool reference_boxes = false;  ///< of split primitives, coloured by primitive
     bool see_through = false;      ///< hidden parts of boxes dimmer, in place of absent
-    ColorScale scale;              ///< of `boxes`
+    ColorScale colors;             ///< of `boxes`
     std::optional<Box> selected;   ///< drawn over all
     uint32_t selected_prim = kNoIndex;
     uint32_t box_budget = 200000;  ///< of each kind of boxes; the largest on screen are drawn
     float line_width = 1.5f;
     float wire_width = 1.0f;
+    float depth_fade = 0.0f;  ///< how much fainter the farthest boxes are, in [0, 1]
+    float size_fade = 0.0f;   ///< how much fainter boxes of a few pixels are, in [0, 1]
+    float interface_scale = 1.0f;
     Vec3 background_top{0.0f};
     Vec3 background_bottom{0.0f};
     Vec3 wire_color{0.0f};
+    Vec3 red_color{1.0f, 0.0f, 0.0f};
     Vec3 selection_color{1.0f};
     bool axis_cross = true;
 };
@@ -84,6 +86,9 @@ struct Selection {
 
     bool operator==(const Selection&) const = default;
 };
+
+/// The boxes of a range of levels, with the leaves above it if asked for.
+BoxSelection select_boxes(const LevelTable& levels, const LevelRange& range, bool leaves_above);
 
 /// The frame's 3D view of a state. `levels` and `values` belong together; without levels no box is drawn.
 DrawList make_draw_list(const ViewerState& state, const LevelTable& levels, const BoxValues& values,

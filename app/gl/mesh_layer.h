@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "app/gl/program.h"
+#include "app/gl/view_transform.h"
+#include "core/refs/prim_ref.h"
+#include "core/scene/mesh.h"
+
+namespace boxwood {
+
+/// The surface on the GPU: three corners for each triangle, its colour, its normal, and whether it is split.
+class MeshLayer {
+public:
+    void upload(const Mesh& mesh, const UnitSpace& space);
+    /// flags[triangle]: 1 if it has more than one reference.
+    void upload_split_flags(std::span<const uint8_t> flags);
+
+    /// Draws all triangles with the program in use, which is `program`; selected: triangle or kNoIndex.
+    void draw(const Program& program, uint32_t selected) const;
+
+    size_t byte_count() const;
+    uint64_t upload_count() const { return upload_count_; }
+
+private:
+    struct Chunk {
+        VertexArray vertex_array;
+        Buffer corners, triangles, split;
+        uint32_t first = 0;
+        uint32_t count = 0;
+    };
+    std::vector<Chunk> chunks_;
+    uint64_t upload_count_ = 0;
+};
+
+}  // namespace boxwood

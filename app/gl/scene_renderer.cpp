@@ -1,0 +1,246 @@
+#include "app/gl/scene_renderer.h"
+
+#include <algorithm>
+
+#include "app/gl/axis_cross.h"
+#include "app/gl/box_layer.h"
+#include "app/gl/mesh_layer.h"
+#include "app/gl/program.h"
+#include "app/gl/view_transform.h"
+#include "core/base/parallel.h"
+
+namespace boxwood {
+namespace {
+
+/// What boxes.vert calls its ways to colour a box. The first three are those of BoxColor.
+enum class Coloring : int { Level, References, SahShare, Primitive, One };
+
+constexpr float kHiddenOpacity = 0.22f;          // of what lies behind the surface, see-through
+constexpr float kHiddenSelectionOpacity = 0.5f;  // of the selected box
+constexpr float kWireOpacity = 0.6f;
+
+int coloring_of(BoxColor meaning) {
+    switch (meaning) {
+        case BoxColor::Level:
+            return static_cast<int>(Coloring::Level);
+        case BoxColor::Primitives:
+            return static_cast<int>(Coloring::References);
+        case BoxColor::SahShare:
+            return static_cast<int>(Coloring::SahShare);
+    }
+    return static_cast<int>(Coloring::One);
+}
+
+Vec3 srgb_of(const Vec3& linear) {
+    return Vec3(srgb_byte(linear.x), srgb_byte(linear.y), srgb_byte(linear.z)) / 255.0f;
+}
+
+void blend_over() {
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+}  // namespace
+
+struct SceneRenderer::Impl {
+    Program mesh_program{"mesh.vert", "mesh.frag"};
+    Program box_program{"boxes.vert", "boxes.frag"};
+    Program background_program{"picture.vert", "background.frag"};
+    BoxPrograms box_programs;
+    BoxEdges box_edges;
+    AxisCross axis_cross;
+    PictureRenderer picture;
+    VertexArray no_vertices = make_vertex_array();
+    Buffer frame = make_dynamic_buffer(sizeof(FrameUniforms));
+    Buffer selected_box = make_dynamic_buffer(sizeof(BoxInstance));
+    UnitSpace space;
+    MeshLayer mesh;
+    BoxLayer nodes;
+    BoxLayer references;
+
+    void draw_background(const DrawList& list);
+    void draw_mesh(const DrawList& list, const Vec3& up);
+    void draw_boxes(const DrawList& list);
+    void draw_selected_box(const DrawList& list);
+    template <class Draw>
+    void draw_in_passes(bool see_through, float hidden_opacity, const Draw& draw);
+};
+
+SceneRenderer::SceneRenderer() : impl_(std::make_unique<Impl>()) {}
+SceneRenderer::~SceneRenderer() = default;
+
+void SceneRenderer::set_mesh(const Mesh& mesh) {
+    impl_->space = UnitSpace::of(mesh.bounds());
+    impl_->mesh.upload(mesh, impl_->space);
+    impl_->nodes.clear();
+    impl_->references.clear();
+}
+
+void SceneRenderer::set_boxes(const LevelTable& levels, const BoxValues& values) {
+    const auto fill = [&](uint32_t first, std::span<BoxInstance> boxes) {
+        parallel_for(boxes.size(), 4096, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) {
+                const uint32_t node = levels.order[first + i];
+                const NodeView& view = levels.list.nodes[node];
+                const uint32_t leaf_bit = view.kind == NodeKind::Leaf ? 1u : 0u;
+                boxes[i] = {impl_->space.from_world(view.bounds.lower),
+                            impl_->space.from_world(view.bounds.upper), values.references[node],
+                            values.sah_share[node], 2 * view.level + leaf_bit};
+            }
+        });
+    };
+    impl_->nodes.upload(static_cast<uint32_t>(levels.order.size()), fill);
+}
+
+void SceneRenderer::set_references(std::span<const PrimRef> refs, size_t triangle_count) {
+    const std::vector<uint8_t> flags = split_flags(refs, triangle_count);
+    impl_->mesh.upload_split_flags(flags);
+    std::vector<uint32_t> split_refs;
+    for (size_t i = 0; i < refs.size(); ++i) {
+        if (flags[refs[i].prim] != 0) split_refs.push_back(static_cast<uint32_t>(i));
+    }
+    const auto fill = [&](uint32_t first, std::span<BoxInstance> boxes) {
+        for (size_t i = 0; i < boxes.size(); ++i) {
+            const PrimRef& ref = refs[split_refs[first + i]];
+            boxes[i] = {.lower = impl_->space.from_world(ref.bounds.lower),
+                        .upper = impl_->space.from_world(ref.bounds.upper),
+                        .word = ref.prim};
+        }
+    };
+    impl_->references.upload(static_cast<uint32_t>(split_refs.size()), fill);
+}
+
+void SceneRenderer::set_picture(const Image& image, uint64_t version) { impl_->picture.set(image, version); }
+void SceneRenderer::clear_picture() { impl_->picture.clear(); }
+
+void SceneRenderer::draw(const DrawList& list, const Camera& camera, RenderTarget& target,
+                         const PixelRect& rect) {
+    if (rect.width <= 0 || rect.height <= 0) return;
+    const CameraFrame view = camera_frame(camera, static_cast<double>(rect.width) / rect.height);
+    const FrameUniforms uniforms = frame_uniforms(view, impl_->space, rect.width, rect.height);
+    glNamedBufferSubData(impl_->frame.name(), 0, sizeof(uniforms), &uniforms);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, impl_->frame.name());
+
+    impl_->nodes.choose(impl_->box_programs, list.boxes.value_or(BoxSelection{}), list.box_budget);
+    const uint32_t reference_count = list.reference_boxes ? impl_->references.box_count() : 0;
+    impl_->references.choose(impl_->box_programs, {.end = reference_count, .count = reference_count},
+                             list.box_budget);
+
+    target.bind_samples(rect);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_SCISSOR_TEST);
+    glDisable(GL_CULL_FACE);
+    glClearDepth(0.0);
+    glDepthMask(GL_TRUE);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    impl_->draw_background(list);
+    glEnable(GL_DEPTH_TEST);
+    impl_->draw_mesh(list, glm::length(camera.up) > 0.0f ? glm::normalize(camera.up) : Vec3(view.up));
+    impl_->draw_boxes(list);
+    impl_->draw_selected_box(list);
+    glDisable(GL_DEPTH_TEST);
+    if (list.axis_cross) impl_->axis_cross.draw(view, rect.width, rect.height, list.interface_scale);
+    target.resolve(rect);
+}
+
+void SceneRenderer::Impl::draw_background(const DrawList& list) {
+    glDisable(GL_DEPTH_TEST);
+    if (picture.is_set()) {
+        picture.fill(1.0f);
+        return;
+    }
+    glDisable(GL_BLEND);
+    background_program.set("top", srgb_of(list.background_top));
+    background_program.set("bottom", srgb_of(list.background_bottom));
+    background_program.use();
+    glBindVertexArray(no_vertices.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void SceneRenderer::Impl::draw_mesh(const DrawList& list, const Vec3& up) {
+    const bool only_edges = list.mesh == MeshLook::Hidden;
+    if (only_edges && !list.wire) return;
+    mesh_program.set("show_red", list.red ? 1 : 0);
+    mesh_program.set("red_color", list.red_color);
+    mesh_program.set("selection_color", list.selection_color);
+    mesh_program.set("scene_up", up);
+    mesh_program.set("fill", only_edges ? 0 : 1);
+    mesh_program.set("wire_width", list.wire ? list.wire_width : 0.0f);
+    mesh_program.set("wire_color", list.wire_color);
+    mesh_program.set("wire_opacity", kWireOpacity);
+    mesh_program.use();
+    const GLboolean color = list.mesh == MeshLook::Depth ? GL_FALSE : GL_TRUE;
+    glColorMask(color, color, color, color);
+    glDepthMask(only_edges ? GL_FALSE : GL_TRUE);
+    glDepthFunc(GL_GREATER);
+    if (only_edges) {
+        blend_over();
+    } else {
+        glDisable(GL_BLEND);
+    }
+    mesh.draw(mesh_program, list.selected_prim);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+}
+
+/// What lies behind the surface first, dimmer, then what lies before it.
+template <class Draw>
+void SceneRenderer::Impl::draw_in_passes(bool see_through, float hidden_opacity, const Draw& draw) {
+    blend_over();
+    if (see_through) {
+        glDepthFunc(GL_LESS);
+        glDepthMask(GL_FALSE);
+        box_program.set("opacity", hidden_opacity);
+        draw();
+        glDepthMask(GL_TRUE);
+    }
+    glDepthFunc(GL_GEQUAL);
+    box_program.set("opacity", 1.0f);
+    draw();
+}
+
+void SceneRenderer::Impl::draw_boxes(const DrawList& list) {
+    box_program.set("line_width", list.line_width);
+    box_program.set("depth_fade", list.depth_fade);
+    box_program.set("size_fade", list.size_fade);
+    box_program.set("palette", std::span<const Vec3>(list.colors.palette));
+    box_program.set("scale", Vec2(static_cast<float>(list.colors.scale.lower),
+                                  static_cast<float>(list.colors.scale.upper)));
+    box_program.set("is_logarithmic", list.colors.scale.logarithmic ? 1 : 0);
+    box_program.use();
+    box_edges.bind();
+    box_program.set("coloring", static_cast<int>(Coloring::Primitive));
+    draw_in_passes(list.see_through, kHiddenOpacity, [&] { references.draw(); });
+    box_program.set("coloring", coloring_of(list.colors.meaning));
+    draw_in_passes(list.see_through, kHiddenOpacity, [&] { nodes.draw(); });
+}
+
+void SceneRenderer::Impl::draw_selected_box(const DrawList& list) {
+    if (!list.selected || list.selected->is_empty()) return;
+    const BoxInstance box = {.lower = space.from_world(list.selected->lower),
+                             .upper = space.from_world(list.selected->upper)};
+    glNamedBufferSubData(selected_box.name(), 0, sizeof(box), &box);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, selected_box.name());
+    box_program.set("coloring", static_cast<int>(Coloring::One));
+    box_program.set("one_color", list.selection_color);
+    box_program.set("line_width", 2.0f * list.line_width);
+    box_program.set("depth_fade", 0.0f);
+    box_program.set("size_fade", 0.0f);
+    box_program.use();
+    box_edges.bind();
+    draw_in_passes(true, kHiddenSelectionOpacity,
+                   [] { glDrawElements(GL_TRIANGLES, BoxEdges::kIndexCount, GL_UNSIGNED_SHORT, nullptr); });
+}
+
+BoxCounts SceneRenderer::box_counts() const { return impl_->nodes.counts(); }
+BoxCounts SceneRenderer::reference_box_counts() const { return impl_->references.counts(); }
+
+uint64_t SceneRenderer::upload_count() const {
+    return impl_->mesh.upload_count() + impl_->nodes.upload_count() + impl_->references.upload_count();
+}
+
+size_t SceneRenderer::byte_count() const {
+    return impl_->mesh.byte_count() + impl_->nodes.byte_count() + impl_->references.byte_count();
+}
+
+}  // namespace boxwood

@@ -1,0 +1,63 @@
+#include "app/viewer/box_values.h"
+
+#include <algorithm>
+
+#include "core/structure/sah.h"
+
+namespace boxwood {
+namespace {
+
+/// Of the values above 0.
+ValueRange range_of(const std::vector<float>& values) {
+    ValueRange range;
+    for (const float value : values) {
+        if (!(value > 0.0f)) continue;
+        range.lower = range.lower > 0.0f ? std::min(range.lower, value) : value;
+        range.upper = std::max(range.upper, value);
+    }
+    return range;
+}
+
+/// The nodes' terms of the SAH cost.
+std::vector<double> sah_terms(const NodeList& list) {
+    const double root_area = list.nodes.empty() ? 0.0 : list.nodes[0].bounds.half_area();
+    std::vector<double> terms;
+    terms.reserve(list.nodes.size());
+    for (const NodeView& node : list.nodes) {
+        const double cost = node.kind == NodeKind::Leaf ? leaf_cost(node.ref_count) : double{kTraversalCost};
+        terms.push_back(hit_probability(node.bounds.half_area(), root_area) * cost);
+    }
+    return terms;
+}
+
+double sum(const std::vector<double>& values) {
+    double total = 0.0;
+    for (const double value : values) total += value;
+    return total;
+}
+
+}  // namespace
+
+BoxValues make_box_values(const NodeList& list) {
+    const size_t node_count = list.nodes.size();
+    std::vector<uint64_t> references(node_count, 0);
+    for (size_t i = node_count; i-- > 0;) {  // children before parents
+        const NodeView& node = list.nodes[i];
+        if (node.kind == NodeKind::Leaf) references[i] += node.ref_count;
+        if (node.parent != kNoIndex) references[node.parent] += references[i];
+    }
+    const std::vector<double> terms = sah_terms(list);
+    const double total = sum(terms);
+    BoxValues values;
+    values.references.reserve(node_count);
+    values.sah_share.reserve(node_count);
+    for (size_t i = 0; i < node_count; ++i) {
+        values.references.push_back(static_cast<float>(references[i]));
+        values.sah_share.push_back(total > 0.0 ? static_cast<float>(terms[i] / total) : 0.0f);
+    }
+    values.references_range = range_of(values.references);
+    values.sah_share_range = range_of(values.sah_share);
+    return values;
+}
+
+}  // namespace boxwood
