@@ -11,7 +11,11 @@ namespace boxwood {
 namespace {
 
 /// Share of the light that comes from everywhere, so that faces seen edge-on do not turn black.
-constexpr double kAmbient = 0.2;
+constexpr double kAmbient = 0.12;
+/// Light that is lost at great depth, and the depth at which half of that is lost, relative to the diagonal
+/// of the scene's box: tells near from far where the angles are the same.
+constexpr double kFade = 0.5;
+constexpr double kFadeLength = 0.2;
 /// What is lit by the whole hemisphere.
 constexpr float kAoWhite = 0.85f;
 
@@ -47,18 +51,14 @@ Ray leaving_ray(const Ray& ray, const Hit& hit, const DVec3& normal, const DVec3
 
 }  // namespace
 
-double scene_diagonal(const Mesh& mesh) {
-    const DVec3 extent = mesh.bounds().extent();
-    return std::sqrt(glm::dot(extent, extent));
-}
-
-PixelTracer::PixelTracer(const Mesh& mesh, double diagonal, Structure structure,
+PixelTracer::PixelTracer(const Mesh& mesh, const Box& bounds, Structure structure,
                          const TraceSettings& settings)
     : mesh_(mesh),
       structure_(std::move(structure)),
       settings_(settings),
       frame_(camera_frame(settings.camera, static_cast<double>(settings.width) / settings.height)),
-      diagonal_(diagonal) {}
+      bounds_(bounds),
+      diagonal_(std::sqrt(glm::dot(bounds.extent(), bounds.extent()))) {}
 
 bool PixelTracer::cast(uint32_t sample, PixelBatch& batch, bool counted, const Task& task) const {
     const size_t count = batch.pixels.size();
@@ -99,7 +99,23 @@ Vec3 PixelTracer::surface_color(const Ray& ray, const Hit& hit) const {
     const DVec3 normal = facing_normal(mesh_.triangle(hit.prim), direction);
     if (settings_.shading == Shading::Normals) return linear_from_srgb(Vec3(normal * 0.5 + 0.5));
     const double cosine = -glm::dot(normal, direction);
-    return mesh_.base_color(hit.prim) * static_cast<float>(kAmbient + (1.0 - kAmbient) * cosine);
+    // Steeper than the cosine alone: a light at the eye gives a flat picture, as nothing is in shadow.
+    const double light = kAmbient + (1.0 - kAmbient) * cosine * 0.5 * (1.0 + cosine);
+    const double fade = 1.0 - kFade + kFade / (1.0 + depth_in_scene(ray, hit.t) / (kFadeLength * diagonal_));
+    return mesh_.base_color(hit.prim) * static_cast<float>(light * fade);
+}
+
+/// Distance along the ray from where it enters the scene's box (or begins inside it) to the hit.
+double PixelTracer::depth_in_scene(const Ray& ray, float t) const {
+    double entry = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double d = static_cast<double>(ray.direction[axis]);
+        if (d == 0.0) continue;
+        const float plane = d > 0.0 ? bounds_.lower[axis] : bounds_.upper[axis];
+        entry = std::max(entry, (static_cast<double>(plane) - static_cast<double>(ray.origin[axis])) / d);
+    }
+    const DVec3 d(ray.direction);
+    return std::max(0.0, static_cast<double>(t) - entry) * std::sqrt(glm::dot(d, d));
 }
 
 bool PixelTracer::shade_ao(uint32_t sample, PixelBatch& batch, const Task& task) const {

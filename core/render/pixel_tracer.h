@@ -23,14 +23,11 @@ struct PixelBatch {
     uint64_t ray_count() const { return rays.size() + ao_rays.size(); }
 };
 
-/// Length of the diagonal of the mesh's box, in world units; 0 without triangles.
-double scene_diagonal(const Mesh& mesh);
-
 /// Casts and shades the samples of a picture; const, so all threads share one. Refers to the mesh.
 class PixelTracer {
 public:
-    /// `diagonal`: scene_diagonal(mesh).
-    PixelTracer(const Mesh& mesh, double diagonal, Structure structure, const TraceSettings& settings);
+    /// `bounds`: mesh.bounds().
+    PixelTracer(const Mesh& mesh, const Box& bounds, Structure structure, const TraceSettings& settings);
 
     const TraceSettings& settings() const { return settings_; }
 
@@ -44,13 +41,15 @@ public:
 
 private:
     bool shade_ao(uint32_t sample, PixelBatch& batch, const Task& task) const;
+    double depth_in_scene(const Ray& ray, float t) const;
     Vec3 surface_color(const Ray& ray, const Hit& hit) const;
 
     const Mesh& mesh_;
     Structure structure_;
     TraceSettings settings_;
     CameraFrame frame_;
-    double diagonal_;
+    Box bounds_;
+    double diagonal_;  ///< of the box, in world units
 };
 
 }  // namespace boxwood

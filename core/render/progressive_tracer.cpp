@@ -22,10 +22,10 @@ constexpr double kPatience = 30.0;
 
 /// One picture to be traced: const for the workers, but for its task.
 struct Job {
-    Job(std::shared_ptr<const Scene> job_scene, double diagonal, Structure structure,
+    Job(std::shared_ptr<const Scene> job_scene, const Box& bounds, Structure structure,
         const TraceSettings& settings)
         : scene(std::move(job_scene)),
-          tracer(scene->mesh, diagonal, std::move(structure), settings),
+          tracer(scene->mesh, bounds, std::move(structure), settings),
           passes(make_trace_passes(settings)),
           task(stop.get_token()) {
         for (const TracePass& pass : passes)
@@ -83,8 +83,8 @@ struct ProgressiveTracer::Impl {
     uint64_t traced_samples = 0;
     TraceState state;                             ///< running, converged, step, samples, counters, heat
     Timer timer;                                  ///< since the start
-    std::shared_ptr<const Scene> measured_scene;  ///< whose diagonal this is:
-    double diagonal = 0.0;
+    std::shared_ptr<const Scene> measured_scene;  ///< whose box this is:
+    Box bounds;
     std::vector<std::jthread> workers;  ///< last: they end before the rest goes
 };
 
@@ -205,10 +205,10 @@ void ProgressiveTracer::start(std::shared_ptr<const Scene> scene, Structure stru
     stop();
     Impl& impl = *impl_;
     if (impl.measured_scene != scene) {
-        impl.diagonal = scene_diagonal(scene->mesh);
+        impl.bounds = scene->mesh.bounds();
         impl.measured_scene = scene;
     }
-    const auto job = std::make_shared<Job>(std::move(scene), impl.diagonal, std::move(structure), settings);
+    const auto job = std::make_shared<Job>(std::move(scene), impl.bounds, std::move(structure), settings);
     const std::scoped_lock lock(impl.mutex);
     impl.job = job;
     impl.film.resize(settings);

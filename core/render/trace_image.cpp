@@ -88,7 +88,7 @@ int sample_count(const TraceSettings& settings) {
 TraceResult trace_image(const Scene& scene, const Structure& structure, const TraceSettings& settings,
                         Task& task) {
     BOXWOOD_ASSERT(settings.width > 0 && settings.height > 0 && settings.ao_rays > 0);
-    const PixelTracer tracer(scene.mesh, scene_diagonal(scene.mesh), structure, settings);
+    const PixelTracer tracer(scene.mesh, scene.mesh.bounds(), structure, settings);
     const bool heat = is_heat(settings.shading);
     const uint32_t samples = static_cast<uint32_t>(sample_count(settings));
     Film film;

@@ -17,7 +17,7 @@ namespace boxwood {
 
 /// What a pixel shows.
 enum class Shading : uint8_t {
-    Primary,    ///< base colour under a light at the eye, both sides of a triangle
+    Primary,    ///< base colour under a light at the eye, fading with depth; both sides
     Normals,    ///< geometric normal towards the eye, (n + 1) / 2
     Ao,         ///< share of the hemisphere that is open within a radius
     Heat,       ///< nodes that the primary ray visits
@@ -40,9 +40,9 @@ struct TraceSettings {
     int height = 720;
     Shading shading = Shading::Primary;
     Mode mode = Mode::Exact;
-    int spp = 0;             ///< samples per pixel; 0: default_spp. Sample 0 goes through the pixel's centre
-    int ao_rays = 4;         ///< hemisphere rays of each sample, 1 to 64
-    float ao_radius = 0.1f;  ///< relative to the diagonal of the scene's box, above 0
+    int spp = 0;              ///< samples per pixel; 0: default_spp. Sample 0 goes through the pixel's centre
+    int ao_rays = 4;          ///< hemisphere rays of each sample, 1 to 64
+    float ao_radius = 0.05f;  ///< relative to the diagonal of the scene's box, above 0
     ColorMap color_map = ColorMap::Viridis;      ///< heat
     bool log_heat = false;                       ///< heat: logarithmic instead of linear scale
     double heat_max = 0.0;                       ///< heat: upper end of the scale; 0: from the picture
