@@ -26,10 +26,10 @@ void expect_smallest_box(const Triangle& triangle, const Box& box) {
         const mpq_class lower = (*least)[k], upper = (*largest)[k];
         const float next = std::nextafter(result.lower[axis], kInfinity);
         const float previous = std::nextafter(result.upper[axis], -kInfinity);
-        ASSERT_LE(mpq_class(double{result.lower[axis]}), lower);
-        ASSERT_TRUE(std::isinf(next) || mpq_class(double{next}) > lower);
-        ASSERT_GE(mpq_class(double{result.upper[axis]}), upper);
-        ASSERT_TRUE(std::isinf(previous) || mpq_class(double{previous}) < upper);
+        ASSERT_LE(mpq_class(double(result.lower[axis])), lower);
+        ASSERT_TRUE(std::isinf(next) || mpq_class(double(next)) > lower);
+        ASSERT_GE(mpq_class(double(result.upper[axis])), upper);
+        ASSERT_TRUE(std::isinf(previous) || mpq_class(double(previous)) < upper);
     }
 }
 

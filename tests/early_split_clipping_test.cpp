@@ -121,7 +121,7 @@ TEST(EarlySplitClipping, MakesFourDisjointBoxesOfEachSlantingTriangleAsInThePape
     ASSERT_EQ(references.refs.size(), 8u);
     EXPECT_EQ(references.split_count, 2u);
     const float third = std::nextafter(44.0f / 3.0f, 0.0f);  // the nearest float lies above 44/3
-    EXPECT_LT(double{third} * 3.0, 44.0);
+    EXPECT_LT(double(third) * 3.0, 44.0);
     EXPECT_EQ(references.refs[0], (PrimRef{{{0, 0, 0}, {4, 4, 0}}, 0}));
     EXPECT_EQ(references.refs[1], (PrimRef{{{4, 3, 0}, {8, 8, 0}}, 0}));
     EXPECT_EQ(references.refs[2], (PrimRef{{{8, 6, 0}, {std::nextafter(third, 16.0f), 11, 0}}, 0}));
@@ -151,7 +151,7 @@ TEST(EarlySplitClipping, CoversDenseSamplesOfATriangle) {
     for (uint32_t prim = 0; prim < 20; ++prim) {
         const Triangle t = mesh.triangle(prim);
         for (int i = 0; i < 200; ++i) {
-            double u = double{rng.next()}, v = double{rng.next()};
+            double u = double(rng.next()), v = double(rng.next());
             if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
             const DVec3 p = DVec3(t.a) + u * (DVec3(t.b) - DVec3(t.a)) + v * (DVec3(t.c) - DVec3(t.a));
             // A sample is off the plane by rounding; the boxes are exact.

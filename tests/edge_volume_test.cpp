@@ -104,8 +104,8 @@ void expect_boxes_contain_pieces(const Mesh& mesh, int t) {
                 is_inside_one = true;
                 for (const ExactPoint& p : piece)
                     for (int k = 0; k < 3; ++k)
-                        is_inside_one = is_inside_one && p[static_cast<size_t>(k)] >= double{box.lower[k]} &&
-                                        p[static_cast<size_t>(k)] <= double{box.upper[k]};
+                        is_inside_one = is_inside_one && p[static_cast<size_t>(k)] >= double(box.lower[k]) &&
+                                        p[static_cast<size_t>(k)] <= double(box.upper[k]);
             }
             ASSERT_TRUE(is_inside_one) << "primitive " << prim;
         });
@@ -196,7 +196,7 @@ TEST(EdgeVolume, ASharedEdgeIsCutAtTheSameBitsFromBothSides) {
         }
         ASSERT_EQ(references.refs.size(), 4u);
         const DVec3 middle = 0.5 * (DVec3(a) + DVec3(b));  // exact here: the coordinates have like exponents
-        const auto beside = [&](float y) { return std::abs(double{y} - middle.y) < 1e-6; };
+        const auto beside = [&](float y) { return std::abs(double(y) - middle.y) < 1e-6; };
         for (const auto& side : cuts)
             EXPECT_TRUE(
                 std::any_of(side.begin(), side.end(), [&](auto cut) { return beside(std::get<0>(cut)); }));

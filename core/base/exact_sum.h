@@ -11,10 +11,10 @@ namespace boxwood {
 struct ExactDifference {
     double high, low;
 
-    ExactDifference(double a, double b) : high(a - b) {
-        const double b_part = a - high;
+    ExactDifference(float a, float b) : high(double(a) - double(b)) {
+        const double b_part = double(a) - high;
         const double a_part = high + b_part;
-        low = (a - a_part) + (b_part - b);
+        low = (double(a) - a_part) + (b_part - double(b));
     }
 };
 

@@ -44,8 +44,8 @@ struct TreeStats {
 };
 
 /// In time proportional to the number of nodes. An empty table has no levels and costs 0.
-TreeStats tree_stats(const LevelTable& table, double traversal_cost = double{kTraversalCost},
-                     double intersection_cost = double{kIntersectionCost});
+TreeStats tree_stats(const LevelTable& table, double traversal_cost = double(kTraversalCost),
+                     double intersection_cost = double(kIntersectionCost));
 
 /// Area of the box that a and b have in common; 0 if they do no more than touch. Boxes that are flat in one
 /// plane overlap in it.

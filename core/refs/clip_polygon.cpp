@@ -40,7 +40,7 @@ Bracket bracket(double x, double error, double scale, const Difference& differen
     // x is at most half a step away from its nearest float, so the number lies on the same side of it as x,
     // and before the next float, where that side is certain.
     float nearest = static_cast<float>(x);
-    const double distance = x - double{nearest};
+    const double distance = x - double(nearest);
     if (distance > error) return {nearest, next_up(nearest)};
     if (-distance > error) return {next_down(nearest), nearest};
     // Close to zero the interval may hold many floats: there the exact sum gives x with a small relative
@@ -110,11 +110,11 @@ private:
         const float at_a = a[u], at_b = b[u];
         if (at_a == at_b) return {at_a, at_a};
         const double sign = a[axis] < b[axis] ? 1.0 : -1.0;
-        const double weight_a = sign * (double{b[axis]} - double{plane});
-        const double weight_b = sign * (double{plane} - double{a[axis]});
+        const double weight_a = sign * (double(b[axis]) - double(plane));
+        const double weight_b = sign * (double(plane) - double(a[axis]));
         const double scale = weight_a + weight_b;
-        const double x = (weight_a * double{at_a} + weight_b * double{at_b}) / scale;
-        const double error = 1e-15 * std::max(std::abs(double{at_a}), std::abs(double{at_b}));
+        const double x = (weight_a * double(at_a) + weight_b * double(at_b)) / scale;
+        const double error = 1e-15 * std::max(std::abs(double(at_a)), std::abs(double(at_b)));
         return bracket(x, error, scale, [&](float f) {
             const bool ascends = sign > 0.0;
             ExactSum sum;
@@ -144,8 +144,8 @@ private:
         std::array<double, 3> area, area_error;
         for (size_t i = 0; i < 3; ++i) {
             const Vec3 &a = corners_[(i + 1) % 3], &b = corners_[(i + 2) % 3];
-            const double left = (double{a[u]} - double{at_u}) * (double{b[v]} - double{at_v});
-            const double right = (double{a[v]} - double{at_v}) * (double{b[u]} - double{at_u});
+            const double left = (double(a[u]) - double(at_u)) * (double(b[v]) - double(at_v));
+            const double right = (double(a[v]) - double(at_v)) * (double(b[u]) - double(at_u));
             // Each product carries three roundings, their difference one more: 4u (|left| + |right|) < 5e-16
             // of it.
             area[i] = left - right;
@@ -176,8 +176,8 @@ private:
         for (size_t i = 0; i < 3; ++i) {
             total += area[i];
             total_error += area_error[i];
-            numerator += area[i] * double{corners_[i][axis]};
-            largest = std::max(largest, std::abs(double{corners_[i][axis]}));
+            numerator += area[i] * double(corners_[i][axis]);
+            largest = std::max(largest, std::abs(double(corners_[i][axis])));
         }
         const double error = (2.1 * total_error / std::abs(total) + 1e-15) * largest;
         const Bracket x = bracket(numerator / total, error, std::abs(total), [&](float f) {

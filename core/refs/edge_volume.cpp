@@ -55,7 +55,7 @@ public:
     explicit OutwardBoxes(const Triangle& triangle) : bounds_(triangle.bounds()) {
         for (const Vec3& corner : {triangle.a, triangle.b, triangle.c})
             for (int axis = 0; axis < 3; ++axis) {
-                const double x = std::abs(double{corner[axis]});
+                const double x = std::abs(double(corner[axis]));
                 largest_[axis] = std::max(largest_[axis], x);
                 if (x > 0.0) smallest_[axis] = std::min(smallest_[axis], x);
             }
@@ -78,7 +78,7 @@ private:
     /// The largest float that is at most x.
     static float round_down(double x) {
         const float f = static_cast<float>(x);
-        return double{f} <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+        return double(f) <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
     }
 
     Box bounds_;

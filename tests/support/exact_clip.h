@@ -13,7 +13,7 @@ namespace boxwood {
 using ExactPoint = std::array<mpq_class, 3>;
 
 inline ExactPoint exact_point(const Vec3& p) {
-    return {mpq_class(double{p.x}), mpq_class(double{p.y}), mpq_class(double{p.z})};
+    return {mpq_class(double(p.x)), mpq_class(double(p.y)), mpq_class(double(p.z))};
 }
 
 /// The part of a convex polygon with sign * (x - plane) <= 0 on the axis, without error.
@@ -40,8 +40,8 @@ inline std::vector<ExactPoint> exact_clip(const Triangle& triangle, const Box& b
                                        exact_point(triangle.c)};
     for (int axis = 0; axis < 3; ++axis) {
         const size_t k = static_cast<size_t>(axis);
-        polygon = exact_clip(polygon, k, mpq_class(double{box.lower[axis]}), -1);
-        polygon = exact_clip(polygon, k, mpq_class(double{box.upper[axis]}), 1);
+        polygon = exact_clip(polygon, k, mpq_class(double(box.lower[axis])), -1);
+        polygon = exact_clip(polygon, k, mpq_class(double(box.upper[axis])), 1);
     }
     return polygon;
 }
