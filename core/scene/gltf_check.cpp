@@ -473,7 +473,7 @@ std::string checked_gltf(const InputFile& file, const GltfContainer& container) 
         document = Json::parse(to_utf8(std::string(container.json)));
     } catch (const Json::parse_error& error) {
         const uint64_t start = static_cast<uint64_t>(container.json.data() - file.bytes.data());
-        file.fail_at_byte(start + error.byte, "this is not valid JSON");
+        file.fail_at_byte(start + error.byte - 1, "this is not valid JSON");
     } catch (const Json::exception&) {
         file.fail("the JSON has a number that fits no type");
     }

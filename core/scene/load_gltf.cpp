@@ -17,7 +17,8 @@ namespace {
 
 using Matrix = glm::dmat4;
 
-constexpr uint64_t kMaxFlattened = uint64_t{1} << 30;  ///< triangles or vertices of all instances
+/// Instances may make this many vertices or triangles of a file, and more of a larger one.
+constexpr uint64_t kFreeElements = uint64_t{1} << 23, kElementsPerByte = 64;
 
 /// A mesh in the world.
 struct Instance {
@@ -220,6 +221,9 @@ private:
     /// Instances can multiply a small file: the sums are taken before anything is allocated.
     void reserve(const std::vector<Instance>& instances) {
         uint64_t vertex_count = 0, triangle_count = 0;
+        uint64_t most = kFreeElements + kElementsPerByte * file_.bytes.size();
+        for (const tinygltf::Buffer& buffer : model_.buffers) most += kElementsPerByte * buffer.data.size();
+        most = std::min(most, uint64_t{kNoIndex});
         for (const Instance& instance : instances) {
             std::map<const tinygltf::Accessor*, bool> is_counted;
             for (const tinygltf::Primitive& primitive : mesh_of(instance).primitives) {
@@ -231,9 +235,8 @@ private:
                 const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
                 triangle_count += is_list ? corners / 3 : corners - std::min<uint64_t>(corners, 2);
             }
-            if (vertex_count > kMaxFlattened || triangle_count > kMaxFlattened)
-                file_.fail("its instances have more than " + std::to_string(kMaxFlattened) +
-                           " vertices or triangles");
+            if (vertex_count > most || triangle_count > most)
+                file_.fail("its instances have more than " + std::to_string(most) + " vertices or triangles");
         }
         mesh_.positions.reserve(vertex_count);
         mesh_.triangles.reserve(triangle_count);

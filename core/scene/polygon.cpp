@@ -81,7 +81,7 @@ public:
     }
 
 private:
-    static constexpr size_t kTestsPerCorner = 4096;  ///< keeps the time linear in the corners
+    static constexpr size_t kTestsPerCorner = 1024;  ///< keeps the time linear in the corners
 
     double corner_turn(uint32_t i) const {
         return turn(points_[previous_[i]], points_[i], points_[next_[i]]);
