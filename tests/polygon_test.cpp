@@ -84,5 +84,19 @@ TEST(Polygon, TimeIsBoundedForManyDents) {
     EXPECT_LT(timer.milliseconds(), 2000.0);
 }
 
+TEST(Polygon, RoundedCircleIsAFanFromItsFirstCorner) {
+    std::vector<Vec3> positions;
+    for (int i = 0; i < 20000; ++i) {
+        const double angle = 6.28318530717958 * i / 20000.0;
+        positions.push_back({static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0.0f});
+    }
+    std::vector<uint32_t> corners(positions.size());
+    std::iota(corners.begin(), corners.end(), 0u);
+    std::vector<UVec3> triangles;
+    cut_polygon(positions, corners, triangles);
+    ASSERT_EQ(triangles.size(), 19998u);
+    for (uint32_t i = 0; i < 19998; ++i) ASSERT_EQ(triangles[i], UVec3(0, i + 1, i + 2));
+}
+
 }  // namespace
 }  // namespace boxwood

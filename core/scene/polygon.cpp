@@ -1,5 +1,6 @@
 #include "core/scene/polygon.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace boxwood {
@@ -34,10 +35,15 @@ std::vector<DVec2> project(std::span<const Vec3> positions, std::span<const uint
     return points;
 }
 
+/// Dents no deeper than two roundings of a float coordinate do not count: a circle's corners have them.
 bool is_convex(const std::vector<DVec2>& points) {
+    double largest = 0.0;
+    for (const DVec2& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+    const double depth = 0x1p-23 * largest;
     const size_t n = points.size();
     for (size_t i = 0; i < n; ++i) {
-        if (turn(points[i], points[(i + 1) % n], points[(i + 2) % n]) < 0.0) return false;
+        const DVec2 a = points[i], b = points[(i + 1) % n], c = points[(i + 2) % n];
+        if (turn(a, b, c) < -depth * glm::length(c - a)) return false;
     }
     return true;
 }
