@@ -3,7 +3,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <utility>
 
 #include "core/base/exact_sum.h"
 
@@ -52,53 +51,75 @@ Bracket bracket(double x, double error, double scale, const Difference& differen
     return {next_down(nearest), nearest};
 }
 
-bool lexicographically_less(const Vec3& a, const Vec3& b) {
-    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-}
+using Point = std::array<float, 3>;  // glm's vectors branch at each index that is no constant
+
+Point point(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 class Clipper {
 public:
-    Clipper(const Triangle& triangle, const Box& box)
-        : corners_{triangle.a, triangle.b, triangle.c}, bounds_(triangle.bounds()), box_(box) {}
+    Clipper(const Triangle& triangle, const Box& bounds, const Box& box)
+        : corners_{point(triangle.a), point(triangle.b), point(triangle.c)},
+          least_(point(bounds.lower)),
+          most_(point(bounds.upper)),
+          lower_(point(box.lower)),
+          upper_(point(box.upper)) {}
 
     Box bounds() {
-        for (const Vec3& corner : corners_) add_corner(corner);
+        for (const Point& corner : corners_) add_corner(corner);
         for (size_t i = 0; i < 3; ++i) add_edge(corners_[i], corners_[(i + 1) % 3]);
-        for (int axis = 0; axis < 3; ++axis) add_box_edges(axis);
-        return result_;
+        for (size_t axis = 0; axis < 3 && !is_complete(); ++axis) add_box_edges(axis);
+        return {{result_lower_[0], result_lower_[1], result_lower_[2]},
+                {result_upper_[0], result_upper_[1], result_upper_[2]}};
     }
 
 private:
-    bool is_inside(int axis, float x) const { return box_.lower[axis] <= x && x <= box_.upper[axis]; }
-    bool is_inside(int axis, const Bracket& x) const {
-        return box_.lower[axis] <= x.floor && x.ceil <= box_.upper[axis];
+    bool is_inside(size_t axis, const Bracket& x) const {
+        return lower_[axis] <= x.floor && x.ceil <= upper_[axis];
     }
 
-    void add_corner(const Vec3& corner) {
-        if (is_inside(0, corner.x) && is_inside(1, corner.y) && is_inside(2, corner.z))
-            result_.extend(corner);
+    void add(size_t axis, const Bracket& x) {
+        result_lower_[axis] = std::min(result_lower_[axis], x.floor);
+        result_upper_[axis] = std::max(result_upper_[axis], x.ceil);
+    }
+
+    /// Whether no further point can make the result larger.
+    bool is_complete() const {
+        for (size_t axis = 0; axis < 3; ++axis)
+            if (result_lower_[axis] > std::max(lower_[axis], least_[axis]) ||
+                result_upper_[axis] < std::min(upper_[axis], most_[axis]))
+                return false;
+        return true;
+    }
+
+    void add_corner(const Point& corner) {
+        for (size_t axis = 0; axis < 3; ++axis)
+            if (!is_inside(axis, {corner[axis], corner[axis]})) return;
+        for (size_t axis = 0; axis < 3; ++axis) add(axis, {corner[axis], corner[axis]});
     }
 
     /// Points of an edge on the planes of the box. The ends are put in order, so that both triangles at an
     /// edge compute the same point.
-    void add_edge(Vec3 a, Vec3 b) {
-        if (lexicographically_less(b, a)) std::swap(a, b);
-        for (int axis = 0; axis < 3; ++axis) {
-            const float lower = std::min(a[axis], b[axis]);
-            const float upper = std::max(a[axis], b[axis]);
-            for (const float plane : {box_.lower[axis], box_.upper[axis]})
-                if (lower < plane && plane < upper) add_edge_point(a, b, axis, plane);
-        }
+    void add_edge(const Point& from, const Point& to) {
+        const Point &a = std::min(from, to), &b = std::max(from, to);  // lexicographically
+        for (size_t axis = 0; axis < 3; ++axis)
+            if (std::max(a[axis], b[axis]) < lower_[axis] || std::min(a[axis], b[axis]) > upper_[axis])
+                return;
+        for (size_t axis = 0; axis < 3; ++axis)
+            for (const float plane : {lower_[axis], upper_[axis]})
+                if (std::min(a[axis], b[axis]) < plane && plane < std::max(a[axis], b[axis]))
+                    add_edge_point(a, b, axis, plane);
     }
 
     /// The point of edge ab with the given coordinate, strictly between those of a and b.
-    void add_edge_point(const Vec3& a, const Vec3& b, int axis, float plane) {
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    void add_edge_point(const Point& a, const Point& b, size_t axis, float plane) {
+        const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
         const Bracket at_u = edge_coordinate(a, b, axis, plane, u);
         if (!is_inside(u, at_u)) return;
         const Bracket at_v = edge_coordinate(a, b, axis, plane, v);
         if (!is_inside(v, at_v)) return;
-        add_point(axis, {plane, plane}, u, at_u, v, at_v);
+        add(axis, {plane, plane});
+        add(u, at_u);
+        add(v, at_v);
     }
 
     /// x = (a_x (b_k - K) + b_x (K - a_k)) / (b_k - a_k): both weights have the sign of the denominator.
@@ -106,17 +127,17 @@ private:
     /// Error in double, u = 2^-53: the weights and products round by u each, their sum by u; the denominator,
     /// the sum of the rounded weights, is off by 2u, the division by u: 6u max(|a_x|, |b_x|) < 1e-15 times
     /// that.
-    static Bracket edge_coordinate(const Vec3& a, const Vec3& b, int axis, float plane, int u) {
+    static Bracket edge_coordinate(const Point& a, const Point& b, size_t axis, float plane, size_t u) {
         const float at_a = a[u], at_b = b[u];
         if (at_a == at_b) return {at_a, at_a};
-        const double sign = a[axis] < b[axis] ? 1.0 : -1.0;
+        const bool ascends = a[axis] < b[axis];
+        const double sign = ascends ? 1.0 : -1.0;
         const double weight_a = sign * (double(b[axis]) - double(plane));
         const double weight_b = sign * (double(plane) - double(a[axis]));
         const double scale = weight_a + weight_b;
         const double x = (weight_a * double(at_a) + weight_b * double(at_b)) / scale;
         const double error = 1e-15 * std::max(std::abs(double(at_a)), std::abs(double(at_b)));
         return bracket(x, error, scale, [&](float f) {
-            const bool ascends = sign > 0.0;
             ExactSum sum;
             sum.add_product(ascends ? ExactDifference(b[axis], plane) : ExactDifference(plane, b[axis]),
                             ExactDifference(at_a, f));
@@ -127,79 +148,78 @@ private:
     }
 
     /// Points of the triangle's inside on the four edges of the box along `axis`.
-    void add_box_edges(int axis) {
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        for (const float at_u : {box_.lower[u], box_.upper[u]}) {
-            if (!(bounds_.lower[u] < at_u && at_u < bounds_.upper[u])) continue;
-            for (const float at_v : {box_.lower[v], box_.upper[v]})
-                if (bounds_.lower[v] < at_v && at_v < bounds_.upper[v])
-                    add_box_edge_point(axis, u, at_u, v, at_v);
+    void add_box_edges(size_t axis) {
+        const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+        for (const float at_u : {lower_[u], upper_[u]}) {
+            if (!(least_[u] < at_u && at_u < most_[u])) continue;
+            for (const float at_v : {lower_[v], upper_[v]})
+                if (least_[v] < at_v && at_v < most_[v]) add_box_edge_point(axis, u, at_u, v, at_v);
         }
+    }
+
+    /// Twice the area, seen along an axis, that the point (U, V) makes with the edge opposite to corner i.
+    ExactSum exact_area(size_t i, size_t u, float at_u, size_t v, float at_v) const {
+        const Point &a = corners_[(i + 1) % 3], &b = corners_[(i + 2) % 3];
+        ExactSum sum;
+        sum.add_product(ExactDifference(a[u], at_u), ExactDifference(b[v], at_v));
+        sum.add_product(ExactDifference(at_v, a[v]), ExactDifference(b[u], at_u));
+        return sum;
     }
 
     /// The line (U, V) along `axis` meets the triangle where the three areas that the point (U, V) makes with
     /// the triangle's edges, seen along the axis, have one sign; they are the weights of its corners. A line
     /// through an edge or a corner has an area of zero, and its point is found as B or A.
-    void add_box_edge_point(int axis, int u, float at_u, int v, float at_v) {
-        std::array<double, 3> area, area_error;
+    void add_box_edge_point(size_t axis, size_t u, float at_u, size_t v, float at_v) {
+        std::array<double, 3> du, dv;
         for (size_t i = 0; i < 3; ++i) {
-            const Vec3 &a = corners_[(i + 1) % 3], &b = corners_[(i + 2) % 3];
-            const double left = (double(a[u]) - double(at_u)) * (double(b[v]) - double(at_v));
-            const double right = (double(a[v]) - double(at_v)) * (double(b[u]) - double(at_u));
-            // Each product carries three roundings, their difference one more: 4u (|left| + |right|) < 5e-16
-            // of it.
-            area[i] = left - right;
-            area_error[i] = 5e-16 * (std::abs(left) + std::abs(right));
+            du[i] = double(corners_[i][u]) - double(at_u);
+            dv[i] = double(corners_[i][v]) - double(at_v);
         }
-        const auto exact_area = [&](size_t i) {
-            const Vec3 &a = corners_[(i + 1) % 3], &b = corners_[(i + 2) % 3];
-            ExactSum sum;
-            sum.add_product(ExactDifference(a[u], at_u), ExactDifference(b[v], at_v));
-            sum.add_product(ExactDifference(at_v, a[v]), ExactDifference(b[u], at_u));
-            return sum;
-        };
-        int sign = 0;
-        for (size_t i = 0; i < 3; ++i) {
-            if (!(area_error[i] < 1e-9 * std::abs(area[i]))) {
-                area[i] = exact_area(i).value();
-                area_error[i] = 5e-16 * std::abs(area[i]);
-            }
-            const int side = area[i] > 0.0 ? 1 : area[i] < 0.0 ? -1 : 0;
-            if (side == 0 || (sign != 0 && side != sign)) return;
-            sign = side;
-        }
-
         // x = sum of area_i x_i / sum of area_i, M the largest |x_i|, e the sum of the area errors, W that of
         // the areas: numerator and denominator are off by e M and e, and round by 3u M W and 2u W; the
         // division by u.
         double total = 0.0, total_error = 0.0, numerator = 0.0, largest = 0.0;
+        int sign = 0;
         for (size_t i = 0; i < 3; ++i) {
-            total += area[i];
-            total_error += area_error[i];
-            numerator += area[i] * double(corners_[i][axis]);
-            largest = std::max(largest, std::abs(double(corners_[i][axis])));
+            // Each product carries three roundings, their difference one more: below 4u (|left| + |right|).
+            const double left = du[(i + 1) % 3] * dv[(i + 2) % 3], right = dv[(i + 1) % 3] * du[(i + 2) % 3];
+            double area = left - right;
+            double error = 5e-16 * (std::abs(left) + std::abs(right));
+            if (!(error < 1e-9 * std::abs(area))) {
+                area = exact_area(i, u, at_u, v, at_v).value();
+                error = 5e-16 * std::abs(area);
+            }
+            const int side = area > 0.0 ? 1 : area < 0.0 ? -1 : 0;
+            if (side == 0 || (sign != 0 && side != sign)) return;
+            sign = side;
+            const double x = double(corners_[i][axis]);
+            total += area;
+            total_error += error;
+            numerator += area * x;
+            largest = std::max(largest, std::abs(x));
         }
         const double error = (2.1 * total_error / std::abs(total) + 1e-15) * largest;
         const Bracket x = bracket(numerator / total, error, std::abs(total), [&](float f) {
             ExactSum sum;
             for (size_t i = 0; i < 3; ++i)
-                sum.add_product(exact_area(i), sign > 0 ? ExactDifference(corners_[i][axis], f)
-                                                        : ExactDifference(f, corners_[i][axis]));
+                sum.add_product(exact_area(i, u, at_u, v, at_v), sign > 0
+                                                                     ? ExactDifference(corners_[i][axis], f)
+                                                                     : ExactDifference(f, corners_[i][axis]));
             return sum;
         });
-        if (is_inside(axis, x)) add_point(axis, x, u, {at_u, at_u}, v, {at_v, at_v});
+        if (!is_inside(axis, x)) return;
+        add(axis, x);
+        add(u, {at_u, at_u});
+        add(v, {at_v, at_v});
     }
 
-    void add_point(int i, const Bracket& x, int j, const Bracket& y, int k, const Bracket& z) {
-        Vec3 floor, ceil;
-        floor[i] = x.floor, floor[j] = y.floor, floor[k] = z.floor;
-        ceil[i] = x.ceil, ceil[j] = y.ceil, ceil[k] = z.ceil;
-        result_.lower = glm::min(result_.lower, floor);
-        result_.upper = glm::max(result_.upper, ceil);
-    }
+    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-    std::array<Vec3, 3> corners_;
-    Box bounds_, box_, result_;
+    std::array<Point, 3> corners_;
+    Point least_, most_;   // the triangle's bounds
+    Point lower_, upper_;  // the box
+    Point result_lower_{kInfinity, kInfinity, kInfinity};
+    Point result_upper_{-kInfinity, -kInfinity, -kInfinity};
 };
 
 }  // namespace
@@ -207,9 +227,9 @@ private:
 Box clip_bounds(const Triangle& triangle, const Box& box) {
     const Box whole = triangle.bounds();
     if (box.contains(whole)) return whole;
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(whole.lower[axis] <= box.upper[axis] && box.lower[axis] <= whole.upper[axis])) return {};
-    return Clipper(triangle, box).bounds();
+    if (glm::any(glm::greaterThan(whole.lower, box.upper)) || glm::any(glm::lessThan(whole.upper, box.lower)))
+        return {};
+    return Clipper(triangle, whole, box).bounds();
 }
 
 }  // namespace boxwood
