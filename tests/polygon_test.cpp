@@ -88,7 +88,8 @@ TEST(Polygon, RoundedCircleIsAFanFromItsFirstCorner) {
     std::vector<Vec3> positions;
     for (int i = 0; i < 20000; ++i) {
         const double angle = 6.28318530717958 * i / 20000.0;
-        positions.push_back({static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0.0f});
+        const double x = std::round(1e6 * std::cos(angle)) / 1e6, y = std::round(1e6 * std::sin(angle)) / 1e6;
+        positions.push_back({static_cast<float>(x), static_cast<float>(y), 0.0f});
     }
     std::vector<uint32_t> corners(positions.size());
     std::iota(corners.begin(), corners.end(), 0u);

@@ -35,11 +35,15 @@ std::vector<DVec2> project(std::span<const Vec3> positions, std::span<const uint
     return points;
 }
 
-/// Dents no deeper than two roundings of a float coordinate do not count: a circle's corners have them.
+/// Dents that rounding explains do not count, a circle's corners have them: two roundings of a float
+/// coordinate, or 2^-20 of the polygon's size, as in text with six decimals.
 bool is_convex(const std::vector<DVec2>& points) {
-    double largest = 0.0;
-    for (const DVec2& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
-    const double depth = 0x1p-23 * largest;
+    double largest = 0.0, size = 0.0;
+    for (const DVec2& p : points) {
+        largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+        size = std::max({size, std::abs(p.x - points[0].x), std::abs(p.y - points[0].y)});
+    }
+    const double depth = std::max(0x1p-23 * largest, 0x1p-20 * size);
     const size_t n = points.size();
     for (size_t i = 0; i < n; ++i) {
         const DVec2 a = points[i], b = points[(i + 1) % n], c = points[(i + 2) % n];
