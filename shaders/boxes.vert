@@ -6,7 +6,7 @@ layout(std430, binding = 4) readonly buffer Drawn { float drawn[]; };
 
 const int kByLevel = 0, kByReferences = 1, kBySahShare = 2, kByPrimitive = 3, kOneColor = 4;
 const int kPaletteSize = 64;
-const float kBias = 4.0;  // pixels towards the eye, so that an edge on a surface stays visible
+const float kBias = 6.0;  // pixels towards the eye, so that an edge on a surface stays visible
 
 uniform int coloring;
 uniform vec2 scale;  // value of the palette's first and last colour
@@ -14,10 +14,12 @@ uniform int is_logarithmic;
 uniform vec3 palette[kPaletteSize];
 uniform vec3 one_color;
 uniform float line_width;  // pixels
+uniform float casing;      // pixels on each side of the line
 uniform float depth_fade;  // share of their opacity that the farthest boxes lose
 uniform float size_fade;   // the same, of boxes of a few pixels
 
 out vec4 color;
+noperspective out float across;  // pixels from the middle of the line
 
 vec3 palette_color(float value) {
     float x = 0.0;
@@ -69,6 +71,7 @@ void main() {
     float nearest = nearest_depth();
     gl_Position = vec4(0.0, 0.0, -1.0, 1.0);
     color = vec4(0.0);
+    across = 0.0;
     if (-a.z < nearest && -b.z < nearest) return;
     if (-a.z < nearest) a = mix(a, b, (nearest + a.z) / (a.z - b.z));
     if (-b.z < nearest) b = mix(b, a, (nearest + b.z) / (b.z - a.z));
@@ -81,7 +84,9 @@ void main() {
     along = pixels > 1e-4 ? along / pixels : vec2(1.0, 0.0);
     bool is_end = (quad_corner & 1) != 0;
     float side = (quad_corner & 2) != 0 ? 1.0 : -1.0;
-    vec2 offset = 0.5 * line_width * (side * vec2(-along.y, along.x) + (is_end ? along : -along));
+    float reach = 0.5 * line_width + casing;
+    across = side * reach;
+    vec2 offset = side * reach * vec2(-along.y, along.x) + 0.5 * line_width * (is_end ? along : -along);
 
     vec3 eye = is_end ? b : a;
     vec4 clip = is_end ? clip_b : clip_a;

@@ -12,6 +12,7 @@ constexpr float kArm = 30.0f, kLetterAt = 38.0f, kCenter = 50.0f;  // pixels at 
 
 const std::array<Vec3, 3> kAxisColors = {Vec3(0.93f, 0.38f, 0.33f), Vec3(0.45f, 0.74f, 0.34f),
                                          Vec3(0.40f, 0.60f, 0.98f)};
+constexpr Vec3 kCasingColor(0.09f, 0.10f, 0.12f);
 
 /// Strokes of X, Y and Z in a square from -1 to 1.
 const std::array<std::vector<Vec4>, 3> kLetters = {{
@@ -48,13 +49,17 @@ void AxisCross::draw(const CameraFrame& camera, int width, int height, float sca
     }
     static_assert(kMostSegments >= 3 + 2 + 3 + 3);
     program_.set("segments", std::span<const Vec4>(segments));
-    program_.set("colors", std::span<const Vec3>(colors));
     program_.set("viewport_size", Vec2(static_cast<float>(width), static_cast<float>(height)));
-    program_.set("width", 1.6f * unit);
     program_.use();
     glDisable(GL_BLEND);
     glBindVertexArray(no_vertices_.name());
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * segments.size()));
+    const auto stroke = [&](const std::vector<Vec3>& stroke_colors, float stroke_width) {
+        program_.set("colors", std::span<const Vec3>(stroke_colors));
+        program_.set("width", stroke_width * unit);
+        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * segments.size()));
+    };
+    stroke(std::vector<Vec3>(segments.size(), kCasingColor), 3.6f);
+    stroke(colors, 1.6f);
 }
 
 }  // namespace boxwood

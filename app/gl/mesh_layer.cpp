@@ -21,7 +21,7 @@ uint32_t pack_signed(double x) {
     return static_cast<uint32_t>(value) & 0xffffu;
 }
 
-/// See unpack_normal in shaders/mesh.vert.
+/// See unpack_normal in shaders/mesh.frag.
 uint32_t pack_normal(const Triangle& triangle) {
     DVec3 n = glm::cross(DVec3(triangle.b) - DVec3(triangle.a), DVec3(triangle.c) - DVec3(triangle.a));
     const double sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);

@@ -201,6 +201,8 @@ void SceneRenderer::Impl::draw_in_passes(bool see_through, float hidden_opacity,
 
 void SceneRenderer::Impl::draw_boxes(const DrawList& list) {
     box_program.set("line_width", list.line_width);
+    box_program.set("casing", list.line_casing);
+    box_program.set("casing_color", srgb_of(list.casing_color));
     box_program.set("depth_fade", list.depth_fade);
     box_program.set("size_fade", list.size_fade);
     box_program.set("palette", std::span<const Vec3>(list.colors.palette));

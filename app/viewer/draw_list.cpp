@@ -7,7 +7,7 @@
 namespace boxwood {
 namespace {
 
-constexpr float kLineWidth = 1.3f, kWireWidth = 1.1f;  // pixels at interface scale 1
+constexpr float kLineWidth = 1.4f, kLineCasing = 1.2f, kWireWidth = 1.1f;  // pixels at interface scale 1
 
 constexpr float kDepthFade = 0.5f, kSizeFade = 0.75f;
 
@@ -26,6 +26,7 @@ void set_theme(DrawList& list, Theme theme) {
     list.background_bottom =
         linear_from_srgb(is_dark ? Vec3(0.085f, 0.09f, 0.10f) : Vec3(0.97f, 0.97f, 0.96f));
     list.wire_color = linear_from_srgb(is_dark ? Vec3(0.06f, 0.07f, 0.09f) : Vec3(0.15f, 0.17f, 0.20f));
+    list.casing_color = linear_from_srgb(is_dark ? Vec3(0.02f, 0.03f, 0.05f) : Vec3(1.0f));
     list.red_color = linear_from_srgb(Vec3(0.93f, 0.16f, 0.12f));
     list.selection_color = linear_from_srgb(is_dark ? Vec3(1.0f, 0.55f, 0.95f) : Vec3(0.80f, 0.0f, 0.70f));
 }
@@ -95,6 +96,7 @@ DrawList make_draw_list(const ViewerState& state, const LevelTable& levels, cons
     list.see_through = state.see_through;
     list.interface_scale = state.interface_scale;
     list.line_width = kLineWidth * state.interface_scale;
+    list.line_casing = kLineCasing * state.interface_scale;
     list.wire_width = kWireWidth * state.interface_scale;
     list.depth_fade = kDepthFade;
     list.size_fade = kSizeFade;

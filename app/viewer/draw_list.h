@@ -56,6 +56,7 @@ struct DrawList {
     uint32_t selected_prim = kNoIndex;
     uint32_t box_budget = 200000;  ///< of each kind of boxes; the largest on screen are drawn
     float line_width = 1.5f;
+    float line_casing = 0.0f;  ///< beside each line of a box, in casing_color
     float wire_width = 1.0f;
     float depth_fade = 0.0f;  ///< how much fainter the farthest boxes are, in [0, 1]
     float size_fade = 0.0f;   ///< how much fainter boxes of a few pixels are, in [0, 1]
@@ -63,6 +64,7 @@ struct DrawList {
     Vec3 background_top{0.0f};
     Vec3 background_bottom{0.0f};
     Vec3 wire_color{0.0f};
+    Vec3 casing_color{0.0f};
     Vec3 red_color{1.0f, 0.0f, 0.0f};
     Vec3 selection_color{1.0f};
     bool axis_cross = true;
