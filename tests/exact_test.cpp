@@ -1,17 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "core/base/rng.h"
 #include "core/bvh/binned_sah.h"
 #include "core/structure/closest.h"
 #include "oracle/oracle.h"
+#include "support/random_mesh.h"
 
 namespace boxwood {
 namespace {
-
-Vec3 random_point(Rng& rng, float extent) {
-    const float x = rng.next(-extent, extent), y = rng.next(-extent, extent), z = rng.next(-extent, extent);
-    return {x, y, z};
-}
 
 /// A fan of slivers round one vertex, a pair of coplanar triangles, and random ones; every edge shared bit
 /// for bit.
@@ -65,10 +60,8 @@ Ray aimed_ray(const Mesh& mesh, Rng& rng, float offset, float scale) {
 
 void expect_exact(float offset, float scale, uint64_t seed, int ray_count) {
     const Mesh mesh = nasty_mesh(seed, offset, scale);
-    std::vector<PrimRef> refs;
-    for (uint32_t i = 0; i < mesh.triangle_count(); ++i) refs.push_back({mesh.triangle(i).bounds(), i});
     Task task;
-    const Structure structure(BinnedSah{.max_leaf_size = 1}.build(mesh, refs, task));
+    const Structure structure(BinnedSah{.max_leaf_size = 1}.build(mesh, whole_refs(mesh), task));
     Rng rng(seed);
     std::vector<Ray> rays;
     for (int i = 0; i < ray_count; ++i) rays.push_back(aimed_ray(mesh, rng, offset, scale));

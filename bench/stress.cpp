@@ -1,0 +1,161 @@
+#include "bench/stress.h"
+
+#include <cmath>
+#include <cstdio>
+#include <mutex>
+
+#include "bench/stress_cases.h"
+#include "core/base/parallel.h"
+#include "core/base/timer.h"
+#include "oracle/oracle.h"
+
+namespace boxwood::bench {
+
+namespace {
+
+std::string hex_ray(const Ray& ray) {
+    char text[256];
+    const auto d = [](float value) { return static_cast<double>(value); };
+    std::snprintf(text, sizeof text, "%a %a %a %a %a %a %a %a", d(ray.origin.x), d(ray.origin.y), d(ray.origin.z),
+                  d(ray.direction.x), d(ray.direction.y), d(ray.direction.z), d(ray.t_min), d(ray.t_max));
+    return text;
+}
+
+std::string describe(const Hit& hit) {
+    char text[64];
+    if (!hit.is_hit()) return "a miss";
+    std::snprintf(text, sizeof text, "primitive %u at t = %a", hit.prim, static_cast<double>(hit.t));
+    return text;
+}
+
+/// Accuracy page: no |U|, |V|, |W| of any triangle the ray's line meets within 1e-6 M^2 of zero, the hit not at an end
+/// of the range. In double, which is far finer than the margin.
+bool is_plain(const Mesh& mesh, const Ray& ray, const Hit& expected) {
+    const DVec3 o(ray.origin), d = glm::normalize(DVec3(ray.direction));
+    for (uint32_t prim = 0; prim < mesh.triangle_count(); ++prim) {
+        const Triangle triangle = mesh.triangle(prim);
+        const DVec3 a = DVec3(triangle.a) - o, b = DVec3(triangle.b) - o, c = DVec3(triangle.c) - o;
+        const double u = glm::dot(d, glm::cross(b, c)), v = glm::dot(d, glm::cross(c, a)),
+                     w = glm::dot(d, glm::cross(a, b));
+        const double m = std::max({glm::length(a), glm::length(b), glm::length(c)});
+        const double margin = 1e-6 * m * m;
+        const double least = std::min({u, v, w}), greatest = std::max({u, v, w});
+        if (least < -margin && greatest > margin) continue;  // clearly beside it
+        if (std::min({std::abs(u), std::abs(v), std::abs(w)}) <= margin) return false;
+    }
+    const auto is_near = [&](float end) { return std::abs(expected.t - end) <= 1e-5f * std::abs(end); };
+    return !is_near(ray.t_min) && !is_near(ray.t_max);
+}
+
+struct Judgement {
+    const StressKind& kind;
+    const Mesh& mesh;
+    StressRow& row;
+    std::string place;  ///< recipe, kind and seed, for the first failure
+
+    void fail(uint64_t& counter, const Ray& ray, const Hit& found, const std::string& expected) const {
+        ++counter;
+        if (row.mode == Mode::Fast && &counter != &row.wrong_hits) return;
+        if (row.first_failure.empty()) {
+            row.first_failure = place + ": ray " + hex_ray(ray) + ": found " + describe(found) + ", expected " + expected;
+        }
+    }
+
+    void judge(const Ray& ray, const Hit& found) const {
+        if (kind.judge == Judge::MustHit) {
+            if (!found.is_hit()) fail(row.leaks, ray, found, "a hit of the closed mesh");
+            return;
+        }
+        if (kind.judge == Judge::MustMiss) {
+            if (found.is_hit()) fail(row.wrong_hits, ray, found, "a miss");
+            return;
+        }
+        Hit expected;
+        if (const std::optional<oracle::ExactHit> exact = oracle::closest_hit(mesh, ray)) {
+            expected = {oracle::round_to_float(exact->t), exact->prim};
+        }
+        if (found == expected) return;
+        const bool is_exact = row.mode == Mode::Exact;
+        if (found.is_hit() != expected.is_hit()) {
+            const bool counts = is_exact || is_plain(mesh, ray, expected);
+            fail(counts ? row.wrong_hits : row.wrong_sensitive, ray, found, describe(expected));
+            return;
+        }
+        const bool is_close = std::abs(found.t - expected.t) <= 0x1p-18f * expected.t;
+        if (is_exact ? found.t != expected.t : !is_close) {
+            fail(row.wrong_t, ray, found, describe(expected));
+        } else if (is_exact && found.prim != expected.prim) {
+            fail(row.wrong_prims, ray, found, describe(expected));
+        }
+    }
+};
+
+/// One case: built, traced, judged, added to the row.
+void run_case(const Recipe& recipe, const StressKind& kind, uint64_t seed, StressRow& row, Task& task) {
+    const StressCase test = kind.make(seed, kind.ray_count);
+    const References references = recipe.references.method().make(test.mesh, task);
+    Structure structure = recipe.builder.method().build(test.mesh, references.refs, task);
+    for (const Stage& transform : recipe.transforms) {
+        structure = transform.method().apply(test.mesh, references.refs, structure, task);
+    }
+    std::vector<Hit> hits(test.rays.size());
+    std::vector<Count> counts(test.rays.size());
+    structure.closest_hits_counted(test.mesh, test.rays, hits, counts, row.mode, task);
+    if (task.stopped()) return;
+    const Judgement judgement{kind, test.mesh, row, print(recipe) + ", " + kind.name + ", seed " + std::to_string(seed)};
+    for (size_t i = 0; i < hits.size(); ++i) judgement.judge(test.rays[i], hits[i]);
+    for (const Count& count : counts) row.exact_decisions += count.exact;
+    row.rays += hits.size();
+    ++row.cases;
+}
+
+void merge(StressRow& total, const StressRow& part) {
+    total.cases += part.cases;
+    total.rays += part.rays;
+    total.leaks += part.leaks;
+    total.wrong_hits += part.wrong_hits;
+    total.wrong_sensitive += part.wrong_sensitive;
+    total.wrong_prims += part.wrong_prims;
+    total.wrong_t += part.wrong_t;
+    total.exact_decisions += part.exact_decisions;
+    if (total.first_failure.empty()) total.first_failure = part.first_failure;
+}
+
+/// Rounds of one case on each thread until the kind's share of time is used and its rays are cast.
+StressRow run_kind(const Recipe& recipe, const StressKind& kind, Mode mode, double seconds, uint64_t least_rays,
+                   uint64_t seed, Task& task) {
+    StressRow row{.recipe = print(recipe), .kind = kind.name, .mode = mode};
+    const Timer timer;
+    const auto thread_number = static_cast<size_t>(thread_count());
+    while (row.cases == 0 || timer.milliseconds() < 1000.0 * seconds || row.rays < least_rays) {
+        if (task.stopped()) break;
+        std::vector<StressRow> parts(thread_number, StressRow{.mode = mode});
+        parallel_for(thread_number, 1, [&](size_t begin, size_t) {
+            run_case(recipe, kind, seed + row.cases + begin, parts[begin], task);
+        });
+        for (const StressRow& part : parts) merge(row, part);
+    }
+    return row;
+}
+
+}  // namespace
+
+std::vector<StressRow> run_stress(const StressSettings& settings, Task& task) {
+    std::vector<StressRow> rows;
+    const std::span<const StressKind> kinds = stress_kinds();
+    task.total = settings.recipes.size() * settings.modes.size() * kinds.size();
+    for (const Recipe& recipe : settings.recipes) {
+        for (const Mode mode : settings.modes) {
+            for (const StressKind& kind : kinds) {
+                if (task.stopped()) return rows;
+                const uint64_t least_rays = kind.judge == Judge::MustHit ? settings.aimed_rays / 2 : 0;
+                rows.push_back(run_kind(recipe, kind, mode, settings.seconds / static_cast<double>(kinds.size()),
+                                        least_rays, settings.seed, task));
+                ++task.done;
+            }
+        }
+    }
+    return rows;
+}
+
+}  // namespace boxwood::bench
