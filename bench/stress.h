@@ -13,8 +13,10 @@ namespace boxwood::bench {
 struct StressSettings {
     std::vector<Recipe> recipes;
     std::vector<Mode> modes{Mode::Exact, Mode::Fast};
-    double seconds = 10.0;        ///< for each recipe and mode, shared by the kinds; every kind is run once at least
-    uint64_t aimed_rays = 0;      ///< at least so many rays on closed meshes for each recipe and mode, whatever it takes
+    double seconds =
+        10.0;  ///< for each recipe and mode, shared by the kinds; every kind is run once at least
+    uint64_t aimed_rays =
+        0;  ///< at least so many rays on closed meshes for each recipe and mode, whatever it takes
     uint64_t seed = 1;
 };
 
@@ -22,16 +24,18 @@ struct StressSettings {
 struct StressRow {
     std::string recipe;
     std::string kind;
-    Mode mode;
+    Mode mode = Mode::Exact;
     uint64_t cases = 0;
     uint64_t rays = 0;
-    uint64_t leaks = 0;             ///< a closed mesh missed from inside
-    uint64_t wrong_hits = 0;        ///< hit for miss or miss for hit, on plain rays in fast mode
-    uint64_t wrong_sensitive = 0;   ///< fast mode: the same on rays near an edge or an end of the range
-    uint64_t wrong_prims = 0;       ///< another primitive than the nearest (fast mode: at the same t within rounding is right)
-    uint64_t wrong_t = 0;           ///< t is not the exact one, rounded (fast mode: off by more than 2^-18)
-    uint64_t exact_decisions = 0;   ///< left to exact arithmetic
-    std::string first_failure;      ///< recipe, kind and seed, the ray in hex, what was found and what was expected
+    uint64_t leaks = 0;            ///< a closed mesh missed from inside
+    uint64_t wrong_hits = 0;       ///< hit for miss or miss for hit, on plain rays in fast mode
+    uint64_t wrong_sensitive = 0;  ///< fast mode: the same on rays near an edge or an end of the range
+    uint64_t wrong_prims =
+        0;  ///< another primitive than the nearest (fast mode: at the same t within rounding is right)
+    uint64_t wrong_t = 0;          ///< t is not the exact one, rounded (fast mode: off by more than 2^-18)
+    uint64_t exact_decisions = 0;  ///< left to exact arithmetic
+    std::string
+        first_failure;  ///< recipe, kind and seed, the ray in hex, what was found and what was expected
 
     /// Exact mode: no wrong answer of any kind. Fast mode: no wrong hit or miss on plain rays.
     bool holds() const {
@@ -39,9 +43,9 @@ struct StressRow {
     }
 };
 
-/// The numerical suite: every recipe in every mode on every kind of stress_kinds(), judged by rational arithmetic or by
-/// construction. Rows in the order of the recipes, modes and kinds. Stops early with what was reached if task.stop is
-/// requested.
+/// The numerical suite: every recipe in every mode on every kind of stress_kinds(), judged by rational
+/// arithmetic or by construction. Rows in the order of the recipes, modes and kinds. Stops early with what
+/// was reached if task.stop is requested.
 std::vector<StressRow> run_stress(const StressSettings& settings, Task& task);
 
 }  // namespace boxwood::bench

@@ -10,9 +10,10 @@ namespace boxwood::bench {
 
 /// How the answers of a stress case are judged.
 enum class Judge {
-    Oracle,   ///< rational arithmetic, every ray: hit or miss, primitive, bits of t
-    MustHit,  ///< the rays start inside a closed mesh, or aim at the inside of a closed surface: a miss is a leak
-    MustMiss, ///< input that cannot hit anything: non-finite, without direction
+    Oracle,    ///< rational arithmetic, every ray: hit or miss, primitive, bits of t
+    MustHit,   ///< the rays start inside a closed mesh, or aim at the inside of a closed surface: a miss is a
+               ///< leak
+    MustMiss,  ///< input that cannot hit anything: non-finite, without direction
 };
 
 /// A mesh and rays that are hard for it.
@@ -21,12 +22,13 @@ struct StressCase {
     std::vector<Ray> rays;
 };
 
-/// One line of the accuracy page's pass marks. `make` gives the same case for the same seed on every compiler.
+/// One line of the accuracy page's pass marks. `make` gives the same case for the same seed on every
+/// compiler.
 struct StressKind {
     const char* name;
     const char* what;
     Judge judge;
-    size_t ray_count;   ///< rays of one case
+    size_t ray_count;  ///< rays of one case
     StressCase (*make)(uint64_t seed, size_t ray_count);
 };
 

@@ -17,7 +17,8 @@ std::vector<std::string> all_recipes() {
             const std::string text = std::string(references.id) + " > " + builder.id;
             recipes.push_back(text);
             for (const CatalogEntry& transform : transform_catalog()) {
-                if (std::string(transform.input) == builder.output) recipes.push_back(text + " > " + transform.id);
+                if (std::string(transform.input) == builder.output)
+                    recipes.push_back(text + " > " + transform.id);
             }
         }
     }

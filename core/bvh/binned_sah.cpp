@@ -17,16 +17,16 @@ struct Binning {
     Vec3 scale;
     int bin_count;
 
-    Binning(const Box& doubled_centers, int bins) : lower(doubled_centers.lower), bin_count(bins) {
+    Binning(const Box& half_centers, int bins) : lower(half_centers.lower), bin_count(bins) {
         // k1 = bins (1 - epsilon) / extent; an extent without a finite inverse is none.
-        const Vec3 extent = doubled_centers.upper - lower;
+        const Vec3 extent = half_centers.upper - lower;
         for (int axis = 0; axis < 3; ++axis) {
             const float k1 = static_cast<float>(bins) * 0.99999f / extent[axis];
             scale[axis] = std::isfinite(k1) ? k1 : 0.0f;
         }
     }
     int bin(const PrimRef& ref, int axis) const {
-        const float center = doubled_center(ref.bounds)[axis];
+        const float center = half_center(ref.bounds)[axis];
         return std::min(static_cast<int>((center - lower[axis]) * scale[axis]), bin_count - 1);
     }
 };
@@ -47,7 +47,7 @@ struct Bins {
         const int32_t last = binning.bin_count - 1;
         for (const PrimRef& ref : refs) {
             const Float4 ref_lower = load_lower(ref), ref_upper = load_upper(ref);
-            const Float4 position = (doubled_center4(ref_lower, ref_upper) - lower) * scale;
+            const Float4 position = (half_center4(ref_lower, ref_upper) - lower) * scale;
             const Int4 bin = __builtin_convertvector(position, Int4);
             for (int axis = 0; axis < 3; ++axis) {
                 const int32_t i = std::min(bin[axis], last);
@@ -122,7 +122,7 @@ Bvh2 BinnedSah::build(const Mesh&, std::span<const PrimRef> refs, Task& task) co
         const auto count = static_cast<uint32_t>(node_refs.size());
         const bool fits_a_leaf = count <= static_cast<uint32_t>(max_leaf_size);
         if (!must_halve(depth, count)) {
-            const Binning binning(bounds.doubled_centers, bins_for(count));
+            const Binning binning(bounds.half_centers, bins_for(count));
             const Split split = cheapest_split(node_refs, binning);
             const double area = bounds.box.half_area();
             const double split_cost =

@@ -48,10 +48,7 @@ inline Float4 load_upper(const PrimRef& ref) {
     return result;
 }
 
-/// Centre times two, see doubled_center.
-inline Float4 doubled_center4(Float4 lower, Float4 upper) {
-    const Float4 largest = splat(std::numeric_limits<float>::max());
-    return min4(max4(lower + upper, -largest), largest);
-}
+/// See half_center.
+inline Float4 half_center4(Float4 lower, Float4 upper) { return splat(0.25f) * lower + splat(0.25f) * upper; }
 
 }  // namespace boxwood

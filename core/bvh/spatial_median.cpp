@@ -38,7 +38,7 @@ Bvh2 SpatialMedian::build(const Mesh&, std::span<const PrimRef> refs, Task& task
         const auto count = static_cast<uint32_t>(node_refs.size());
         if (count <= static_cast<uint32_t>(max_leaf_size)) return std::nullopt;
         if (must_halve(depth, count)) return count / 2;
-        const Box centers{0.5f * bounds.doubled_centers.lower, 0.5f * bounds.doubled_centers.upper};
+        const Box centers{2.0f * bounds.half_centers.lower, 2.0f * bounds.half_centers.upper};
         if (const auto left_count = split_in_the_middle(node_refs, bounds.box)) return left_count;
         if (const auto left_count = split_in_the_middle(node_refs, centers)) return left_count;
         return count / 2;

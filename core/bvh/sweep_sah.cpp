@@ -49,7 +49,7 @@ private:
         };
         std::vector<Key> keys(refs_.size());
         for (uint32_t i = 0; i < keys.size(); ++i) {
-            keys[i] = {doubled_center(refs_[i].bounds)[static_cast<int>(axis)], i};
+            keys[i] = {half_center(refs_[i].bounds)[static_cast<int>(axis)], i};
         }
         std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
             return a.center < b.center || (a.center == b.center && a.ref < b.ref);

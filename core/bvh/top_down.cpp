@@ -9,7 +9,7 @@ NodeBounds bounds_of(std::span<const PrimRef> refs) {
     for (const PrimRef& ref : refs) {
         const Float4 lower = load_lower(ref), upper = load_upper(ref);
         box.extend(lower, upper);
-        const Float4 center = doubled_center4(lower, upper);
+        const Float4 center = half_center4(lower, upper);
         centers.extend(center, center);
     }
     return {box.box(), centers.box()};

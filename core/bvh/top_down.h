@@ -19,18 +19,16 @@ struct RefRange {
     uint32_t count() const { return end - begin; }
 };
 
-/// Box of the references of a node, and box of their centres, times two.
+/// Box of the references of a node, and box of half their centres.
 struct NodeBounds {
     Box box;
-    Box doubled_centers;
+    Box half_centers;
 };
 NodeBounds bounds_of(std::span<const PrimRef> refs);
 
-/// Centre of a box, times two: what top-down builders sort and bin by. An overflow of the sum is clamped.
-inline Vec3 doubled_center(const Box& box) {
-    constexpr float kLargest = std::numeric_limits<float>::max();
-    return glm::clamp(box.lower + box.upper, Vec3(-kLargest), Vec3(kLargest));
-}
+/// Half the centre of a box: what top-down builders sort and bin by. Half, so that neither it nor the
+/// difference of two overflows for any finite box.
+inline Vec3 half_center(const Box& box) { return 0.25f * box.lower + 0.25f * box.upper; }
 
 /// Nodes of a tree under construction. The children of a node that is split at `mid` (a position in the
 /// references) stand at 2 mid - 1 and 2 mid: every mid occurs at most once, so threads need no common

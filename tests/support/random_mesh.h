@@ -37,7 +37,8 @@ inline std::vector<Ray> rays_for(const Mesh& mesh, size_t count, uint64_t seed) 
         Ray ray;
         ray.origin = random_point(rng, 2.0f);
         Vec3 target = random_point(rng, 1.0f);
-        if (i % 2 == 1 && !mesh.positions.empty()) target = mesh.positions[rng.next_index(mesh.positions.size())];
+        if (i % 2 == 1 && !mesh.positions.empty())
+            target = mesh.positions[rng.next_index(mesh.positions.size())];
         ray.direction = target - ray.origin;
         if (i % 7 == 0) ray.direction[static_cast<int>(i % 3)] = 0.0f;
         if (i % 11 == 0) ray.direction = Vec3(0.0f, -0.0f, i % 2 == 0 ? 1.0f : -3.0f);
