@@ -6,6 +6,8 @@
 #include "core/bvh/binned_sah.h"
 #include "core/bvh/spatial_median.h"
 #include "core/bvh/sweep_sah.h"
+#include "core/refs/early_split_clipping.h"
+#include "core/refs/edge_volume.h"
 #include "core/refs/whole_boxes.h"
 
 namespace boxwood {
@@ -13,6 +15,8 @@ namespace {
 
 constexpr CatalogEntry kReferences[] = {
     row<WholeBoxes>("whole", "one box for each triangle", "Kerbl, lecture, \"Bounding volumes\""),
+    row<EdgeVolume>("evh", "edge volume heuristic", "Dammertz and Keller 2008, section 2"),
+    row<EarlySplitClipping>("esc", "early split clipping", "Ernst and Greiner 2007, algorithm 4"),
 };
 
 constexpr CatalogEntry kBuilders[] = {
