@@ -27,9 +27,8 @@ Camera camera_from(const std::vector<std::string>& columns, const std::string& p
         const char* end = text.data() + text.size();
         const std::from_chars_result result = std::from_chars(text.data(), end, numbers[i - 2]);
         if (result.ec != std::errc() || result.ptr != end)
-            throw Error(ExitCode::BadInput,
-                        place + ": \"" + to_utf8(text) + "\" in column " + std::to_string(i + 1) +
-                            ", expected a number");
+            throw Error(ExitCode::BadInput, place + ": \"" + to_utf8(text) + "\" in column " +
+                                                std::to_string(i + 1) + ", expected a number");
     }
     Camera camera;
     camera.eye = {numbers[0], numbers[1], numbers[2]};
@@ -44,7 +43,8 @@ Camera camera_from(const std::vector<std::string>& columns, const std::string& p
 Camera read_view(const std::string& views_file, const std::string& scene_file, const std::string& view) {
     std::ifstream file(views_file);
     std::string line;
-    if (!std::getline(file, line)) throw Error(ExitCode::BadInput, views_file + ": cannot be read, or is empty");
+    if (!std::getline(file, line))
+        throw Error(ExitCode::BadInput, views_file + ": cannot be read, or is empty");
     std::vector<std::string> names;
     for (size_t number = 2; std::getline(file, line); ++number) {
         const std::vector<std::string> columns = columns_of(line);
@@ -57,7 +57,8 @@ Camera read_view(const std::string& views_file, const std::string& scene_file, c
                                                 " columns, expected " + std::to_string(kColumns));
         return camera_from(columns, place);
     }
-    if (names.empty()) throw Error(ExitCode::BadInput, views_file + ": has no view of " + to_utf8(scene_file));
+    if (names.empty())
+        throw Error(ExitCode::BadInput, views_file + ": has no view of " + to_utf8(scene_file));
     throw Error(ExitCode::BadInput, views_file + ": has no view \"" + to_utf8(view) + "\" of " +
                                         to_utf8(scene_file) + "; did you mean " + nearest_word(view, names) +
                                         "?");

@@ -22,7 +22,8 @@ constexpr Command kCommands[] = {
 
 void print_help() {
     std::string text =
-        "Boxwood shows what a ray tracing acceleration structure really looks like, level by level, and what\n"
+        "Boxwood shows what a ray tracing acceleration structure really looks like, level by level, and "
+        "what\n"
         "each choice in building it costs.\n\n"
         "Usage: boxwood COMMAND ...\n\n"
         "Commands:\n";

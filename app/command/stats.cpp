@@ -38,7 +38,8 @@ ExitCode run_stats(Arguments arguments) {
     options.text("--json", "FILE", json, "write the rows as JSON (- for standard output)");
     options.integer("--threads", threads, 1, 1024, "threads to build with (default: all)");
     options.footer(
-        "references: primitives in leaves, each once a leaf; references_made: before duplicates were removed;\n"
+        "references: primitives in leaves, each once a leaf; references_made: before duplicates were "
+        "removed;\n"
         "bytes: of the structure; sah_cost: expected cost of a random ray in triangle tests; build_ms:\n"
         "references and builder; skipped: what was left out or needed no work, by reason.\n\n" +
         recipe_help());

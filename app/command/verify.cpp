@@ -56,20 +56,18 @@ public:
         size_t count = rays_.size();
         if (is_brute_force(recipe)) count = std::min(count, std::max(count / kBruteForceShare, size_t{1000}));
         const std::span<const Ray> rays = std::span(rays_).first(count);
-        const Timer timer;
         Task task;
         Disagreement found;
         {
             const Progress progress(scene_->title + ": verifying " + print(recipe), task);
-            found = compare_hits(built.structure, scene_->mesh, rays, std::span(expected_).first(count), mode_,
-                                 task);
+            found = compare_hits(built.structure, scene_->mesh, rays, std::span(expected_).first(count),
+                                 mode_, task);
         }
         ReportRow row = row_of(*scene_, recipe);
         row.set("triangles", uint64_t{scene_->mesh.triangle_count()})
             .set("references", uint64_t{built.references->refs.size()})
             .set("rays", uint64_t{rays.size()})
-            .set("wrong", found.wrong)
-            .set("trace_ms", timer.milliseconds());
+            .set("wrong", found.wrong);
         if (found.first) {
             print_first_wrong(built, rays[*found.first], expected_[*found.first], found);
             row.set("first_wrong", ray_line(std::to_string(*found.first), rays[*found.first]));

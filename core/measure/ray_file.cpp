@@ -76,8 +76,8 @@ RayFile parse_rays(std::string_view text, const std::string& name) {
         for (size_t i = 0; i < kNumbers; ++i) {
             const std::string_view word = next_word(line);
             if (word.empty())
-                refuse(place, std::string(kNames[i]) +
-                                  " is missing, expected: id ox oy oz dx dy dz tmin tmax");
+                refuse(place,
+                       std::string(kNames[i]) + " is missing, expected: id ox oy oz dx dy dz tmin tmax");
             numbers[i] = number_from(word, i, place);
         }
         if (const std::string_view more = next_word(line); !more.empty())
@@ -99,8 +99,9 @@ RayFile parse_binary_rays(std::string_view bytes, const std::string& name) {
         for (size_t i = 0; i < kNumbers; ++i) {
             uint32_t bits = 0;
             for (size_t byte = 0; byte < sizeof(float); ++byte)
-                bits |= uint32_t{static_cast<unsigned char>(bytes[ray * kRayBytes + i * sizeof(float) + byte])}
-                        << (8 * byte);
+                bits |=
+                    uint32_t{static_cast<unsigned char>(bytes[ray * kRayBytes + i * sizeof(float) + byte])}
+                    << (8 * byte);
             numbers[i] = std::bit_cast<float>(bits);
         }
         file.ids.push_back(std::to_string(ray));
@@ -123,11 +124,11 @@ std::string hit_lines(const RayFile& file, std::span<const Hit> hits, const Mesh
     std::string text;
     for (size_t i = 0; i < hits.size(); ++i) {
         char t[32];
-        const char* end = std::to_chars(t, t + sizeof(t), hits[i].t).ptr;
+        const char* const end = std::to_chars(t, t + sizeof(t), hits[i].t).ptr;
         text += file.ids[i] + " ";
         text += hits[i].is_hit() ? std::to_string(mesh.source_prim[hits[i].prim]) : "-1";
         text += " ";
-        text.append(t, end);
+        text += std::string_view(t, static_cast<size_t>(end - t));
         text += "\n";
     }
     return text;

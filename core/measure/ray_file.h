@@ -29,8 +29,8 @@ RayFile parse_binary_rays(std::string_view bytes, const std::string& name);
 /// One line as parse_rays reads it, in hex floats, so that no bit is lost; without a line end.
 std::string ray_line(const std::string& id, const Ray& ray);
 
-/// `id prim t` a line: prim as counted in the scene's file, -1 for a miss; t in the shortest decimal form that
-/// reads back as the same float, inf for a miss. hits.size() == file.ids.size().
+/// `id prim t` a line: prim as counted in the scene's file, -1 for a miss; t in the shortest decimal form
+/// that reads back as the same float, inf for a miss. hits.size() == file.ids.size().
 std::string hit_lines(const RayFile& file, std::span<const Hit> hits, const Mesh& mesh);
 
 }  // namespace boxwood

@@ -22,10 +22,14 @@ public:
 
     Ray next(size_t index) {
         switch (index % 4) {
-            case 0: return through_pixel(index % 8 == 0 ? own_ : fitted_);
-            case 1: return between_points();
-            case 2: return at_triangle();
-            default: return along_axis();
+            case 0:
+                return through_pixel(index % 8 == 0 ? own_ : fitted_);
+            case 1:
+                return between_points();
+            case 2:
+                return at_triangle();
+            default:
+                return along_axis();
         }
     }
 

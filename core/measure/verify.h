@@ -14,7 +14,8 @@ namespace boxwood {
 
 /// Rays that find mistakes: in turn through pixels of the scene's own and of the fitted view, between random
 /// points of the scene's box, at vertices, edges and inner points of triangles, and along the axes, starting
-/// at coordinates that occur in the mesh. The same for the same scene, count and seed. None for an empty mesh.
+/// at coordinates that occur in the mesh. The same for the same scene, count and seed. None for an empty
+/// mesh.
 std::vector<Ray> verification_rays(const Scene& scene, size_t count, uint64_t seed = 1);
 
 /// Nearest hits of all rays, on all threads; task.done counts rays. After a stop not to be used.
