@@ -95,7 +95,7 @@ ExitCode run_trace(Arguments arguments) {
         const Progress progress(scene->title + ": tracing " + print(recipes[i]), task);
         const TraceResult traced = trace_image(*scene, built.structure, settings, task);
         if (i == 0 && !output.empty())
-            write_png(output, traced.image, session_text(built, settings, folder_of(output)));
+            write_png(output, traced.image, session_text(built, settings, session_folder(output)));
         report.rows.push_back(trace_row(built, settings, traced));
     }
     print_report(report, json);

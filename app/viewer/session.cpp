@@ -349,7 +349,7 @@ std::string print_session(const Session& session, const std::string& folder) {
     return json.dump(4, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string folder_of(const std::string& path) {
+std::string session_folder(const std::string& path) {
     const std::string folder = std::filesystem::path(path).parent_path().string();
     return folder.empty() ? "." : folder;
 }
@@ -362,16 +362,16 @@ std::optional<Session> load_session(const std::string& path) {
     if (has_png_signature(std::as_bytes(std::span(start)))) {
         const std::string text = read_png(path).session_text;
         if (text.empty()) refuse(path, "expected a picture with a session in it; this one carries none");
-        return parse_session(text, folder_of(path), path);
+        return parse_session(text, session_folder(path), path);
     }
     if (!file || start[0] == 0) return std::nullopt;
     const std::string text = read_file(path);
     if (!is_session_text(text)) return std::nullopt;
-    return parse_session(text, folder_of(path), path);
+    return parse_session(text, session_folder(path), path);
 }
 
 void save_session(const Session& session, const std::string& path) {
-    const std::string text = print_session(session, folder_of(path));
+    const std::string text = print_session(session, session_folder(path));
     const std::string part = path + ".part";
     std::ofstream file(part, std::ios::binary);
     file << text;

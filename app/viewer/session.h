@@ -46,6 +46,6 @@ std::optional<Session> load_session(const std::string& path);
 void save_session(const Session& session, const std::string& path);
 
 /// The folder part of a path: "." if there is none.
-std::string folder_of(const std::string& path);
+std::string session_folder(const std::string& path);
 
 }  // namespace boxwood
