@@ -67,7 +67,7 @@ void use_lattice(MeshBuilder& b) { b.use_object("lattice", {0.62f, 0.56f, 0.42f}
 
 /// The hull itself: strips from station to station, closed at both ends.
 void add_hull(MeshBuilder& b) {
-    constexpr int kStrips = 30;  // on each of the eight sides
+    constexpr int kStrips = 8;  // on each of the eight sides
     use_hull(b);
     for (int side = 0; side < 8; ++side) {
         b.add_surface(kStrips, static_cast<int>(kStations.size()) - 1, [&](double u, double v) {
@@ -89,52 +89,85 @@ void add_plate(MeshBuilder& b, double x0, double x1, double around0, double arou
     for (size_t i = 0; i < 4; ++i) b.add_quad(foot[i], foot[(i + 1) % 4], top[(i + 1) % 4], top[i]);
 }
 
-/// Armour: on each side of the section rows of narrow plates, as long as the hull between two stations
-/// allows, with gaps where it pleases the yard.
-void add_armour(MeshBuilder& b, Rng& rng) {
-    struct Paint {
-        const char* name;
-        Vec3 color;
-    };
-    constexpr int kRows = 42;
-    const Paint paints[] = {{"light armour", {0.60f, 0.62f, 0.64f}},
-                            {"grey armour", {0.47f, 0.49f, 0.52f}},
-                            {"dark armour", {0.22f, 0.24f, 0.29f}},
-                            {"red armour", {0.52f, 0.07f, 0.04f}}};
+/// A slat: a sharp ridge along the hull.
+void add_slat(MeshBuilder& b, double x0, double x1, double around, double width, double height) {
+    const DVec3 front[] = {hull_point(x0, around), hull_point(x0, around + 0.5 * width, height),
+                           hull_point(x0, around + width)};
+    const DVec3 back[] = {hull_point(x1, around), hull_point(x1, around + 0.5 * width, height),
+                          hull_point(x1, around + width)};
+    for (size_t i = 0; i < 2; ++i) b.add_quad(front[i], back[i], back[i + 1], front[i + 1]);
+    b.add_triangle(front[0], front[1], front[2]);
+    b.add_triangle(back[0], back[1], back[2]);
+}
+
+struct Paint {
+    const char* name;
+    Vec3 color;
+};
+constexpr size_t kPaintCount = 4;
+const Paint* paints() {
+    static const Paint table[kPaintCount] = {{"light armour", {0.62f, 0.63f, 0.64f}},
+                                             {"grey armour", {0.42f, 0.45f, 0.49f}},
+                                             {"dark armour", {0.20f, 0.22f, 0.27f}},
+                                             {"red armour", {0.52f, 0.07f, 0.04f}}};
+    return table;
+}
+void use_paint(MeshBuilder& b, size_t i) { b.use_object(paints()[i].name, paints()[i].color); }
+
+/// Belts of armour that run from station to station on every side of the section.
+void add_belts(MeshBuilder& b) {
+    constexpr double kBelts[][2] = {{0.02, 0.10}, {0.47, 0.53}, {0.90, 0.98}};
+    for (size_t section = 0; section + 1 < kStations.size(); ++section) {
+        for (int side = 0; side < 8; ++side) {
+            use_paint(b, side == 0 || side == 4 ? 3 : 0);
+            for (const auto& belt : kBelts)
+                add_plate(b, kStations[section].x - 0.5, kStations[section + 1].x + 0.5, side + belt[0],
+                          side + belt[1], 0.7);
+        }
+    }
+}
+
+/// Between the belts: fields of slats, some plates, some bare hull.
+void add_fields(MeshBuilder& b, Rng& rng) {
+    constexpr int kAcross = 5, kSlats = 9;
+    constexpr double kLength = 13.0, kField = 0.8 / kAcross;
     for (size_t section = 0; section + 1 < kStations.size(); ++section) {
         const double front = kStations[section].x, back = kStations[section + 1].x;
-        for (int side = 0; side < 8; ++side) {
-            for (int row = 0; row < kRows; ++row) {
-                const double around = side + (row + 0.1) / kRows, width = 0.8 / kRows;
-                const bool stripe = (side == 0 || side == 4) && row >= 28 && row < 37;
-                const double shade = double{rng.next()}, cut = double{rng.next(0.3f, 0.7f)};
-                const double gap = double{rng.next(0.4f, 1.2f)}, height = double{rng.next(0.15f, 0.6f)};
-                const Paint& paint = paints[stripe ? 3 : shade < 0.5 ? 0 : shade < 0.88 ? 1 : 2];
-                b.use_object(paint.name, paint.color);
-                const double middle = front + cut * (back - front);
-                if (rng.next() < 0.15f) {
-                    add_plate(b, front - gap, back + gap, around, around + width, height);
-                } else {
-                    add_plate(b, front - gap, middle + gap, around, around + width, height);
-                    if (rng.next() < 0.85f)
-                        add_plate(b, middle - gap, back + gap, around, around + width, 0.7 * height);
-                }
+        const int along = std::max(1, static_cast<int>(std::lround((front - back) / kLength)));
+        for (int cell = 0; cell < 8 * kAcross * along; ++cell) {
+            const int side = cell % 8, across = cell / 8 % kAcross, place = cell / (8 * kAcross);
+            const double x0 = front + (back - front) * (place + 0.04) / along;
+            const double x1 = front + (back - front) * (place + 0.96) / along;
+            const double around = side + 0.1 + across * kField;
+            const float kind = rng.next(), shade = rng.next();
+            use_paint(b, shade < 0.45f ? 0 : shade < 0.75f ? 1 : 2);
+            if (kind < 0.62f) {
+                const double across_metres =
+                    glm::length(hull_point(x1, around + kField) - hull_point(x1, around));
+                const double width = std::min(0.35, 0.2 / across_metres) * kField;
+                for (int i = 0; i < kSlats; ++i)
+                    add_slat(b, x0, x1, around + kField * (i + 0.3) / kSlats, width, 0.15);
+            } else if (kind < 0.80f) {
+                add_plate(b, x0, x1, around + 0.1 * kField, around + 0.9 * kField, 0.45);
             }
         }
     }
 }
 
-/// Pipes along the hull, each inside one section, where it is straight.
+/// Pipes along the hull, each inside one section, where it is straight: a few long ones, many short thin
+/// ones.
 void add_pipes(MeshBuilder& b, Rng& rng) {
     use_steel(b);
-    for (int i = 0; i < 520; ++i) {
+    for (int i = 0; i < 860; ++i) {
         const size_t section = 1 + rng.next_index(kStations.size() - 2);
         const double front = kStations[section].x, back = kStations[section + 1].x;
-        const double start = double{rng.next(0.02f, 0.4f)}, end = double{rng.next(0.6f, 0.98f)};
-        const double around = double{rng.next(0.0f, 8.0f)}, radius = double{rng.next(0.12f, 0.35f)};
-        const double height = 0.5 + radius;
-        b.add_tube(hull_point(front + start * (back - front), around, height),
-                   hull_point(front + end * (back - front), around, height), radius, radius, 9);
+        const bool is_long = i < 30;
+        const double length = is_long ? 0.85 * (front - back) : double{rng.next(8.0f, 12.0f)};
+        const double radius = is_long ? 0.35 : 0.09;
+        const double start = front - 1.0 - double{rng.next()} * std::max(0.0, front - back - length - 2.0);
+        const double around = double{rng.next(0.0f, 8.0f)}, height = (is_long ? 0.8 : 0.5) + radius;
+        b.add_tube(hull_point(start, around, height), hull_point(start - length, around, height), radius,
+                   radius, is_long ? 8 : 5);
     }
 }
 
@@ -181,9 +214,9 @@ void add_pods(MeshBuilder& b) {
                                      {7.4, 112.0}, {7.4, 150.0}, {6.0, 156.0}, {0.0, 156.0}};
         use_hull(b);
         b.add_turned({-45, -2, z}, {-1, 0, 0}, skin, 64);
-        b.use_object("red armour", {});
-        for (int i = 0; i < 24; ++i) {  // fins along the pod
-            const double angle = 2.0 * kPi * i / 24.0;
+        use_paint(b, 3);
+        for (int i = 0; i < 14; ++i) {  // fins along the pod
+            const double angle = 2.0 * kPi * i / 14.0;
             const DVec3 out(0, std::cos(angle), std::sin(angle));
             const DVec3 foot = DVec3(-62, -2, z) + 6.6 * out;
             b.add_beam(foot, foot - DVec3(90, 0, 0), 0.3, 0.9, out);
@@ -227,8 +260,8 @@ void add_tower(MeshBuilder& b, Rng& rng) {
         for (const double s : {-1.0, 1.0})
             add_windows(b, k.x0 + slope, k.x1 - 2.5 * slope, k.y0, k.y1, s * (k.half + 0.03), rng);
         use_steel(b);
-        for (int i = 0; i < 9; ++i) {  // ribs along the roof
-            const double z = k.half * (i - 4.0) / 4.6;
+        for (int i = 0; i < 5; ++i) {  // ribs along the roof
+            const double z = k.half * (i - 2.0) / 2.4;
             b.add_beam({k.x0 + slope, k.y1 + 0.12, z}, {k.x1 - 2.5 * slope, k.y1 + 0.12, z}, 0.25, 0.3);
         }
     }
@@ -238,7 +271,7 @@ void add_tower(MeshBuilder& b, Rng& rng) {
     add_lattice(b, {-70, 17, 0}, {-66, 44, 0}, 1.1, 0.15, 10);
     constexpr ProfilePoint kDish[] = {{0.0, 0.0}, {2.0, 0.25}, {3.6, 0.9},
                                       {4.8, 1.9}, {4.7, 2.0},  {0.0, 0.3}};
-    b.use_object("light armour", {});
+    use_paint(b, 0);
     b.add_turned({-66, 44, 0}, {1.0, 0.55, 0.2}, kDish, 28);
 }
 
@@ -291,7 +324,8 @@ void make_spaceship(const SceneOptions&, Scene& scene, Task& task) {
     Rng rng(2008);
     MeshBuilder b(scene.mesh);
     add_hull(b);
-    add_armour(b, rng);
+    add_belts(b);
+    add_fields(b, rng);
     add_pipes(b, rng);
     if (task.stopped()) return;
     add_pods(b);
