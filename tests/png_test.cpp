@@ -25,6 +25,7 @@ public:
 
     const std::string& path() const { return path_; }
     void write(const std::string& bytes) const {
+        std::filesystem::remove(path_);  // a file that is cut short may be flushed to disk first
         std::ofstream(path_, std::ios::binary)
             .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     }
@@ -146,6 +147,16 @@ TEST(Png, AHugeSizeIsRefusedBeforeMemoryIsTaken) {
     EXPECT_NE(refusal(file.path()).find(file.path()), std::string::npos);
     file.write(header_only(0, 10));
     EXPECT_NE(refusal(file.path()).find(file.path()), std::string::npos);
+}
+
+TEST(Png, AChunkThatClaimsAGigabyteIsRefusedBeforeMemoryIsTaken) {
+    const TemporaryFile file;
+    std::string damaged = encode_png(gradient(9, 9), "session");
+    const size_t chunk = damaged.find("iTXt");
+    ASSERT_NE(chunk, std::string::npos);
+    damaged[chunk - 4] = '\x55';
+    file.write(damaged);
+    EXPECT_NE(refusal(file.path()).find("claims"), std::string::npos);
 }
 
 TEST(Png, IsToldByItsSignature) {

@@ -11,10 +11,10 @@ namespace boxwood {
 namespace {
 
 /// Share of the light that comes from everywhere, so that faces seen edge-on do not turn black.
-constexpr double kAmbient = 0.12;
+constexpr double kAmbient = 0.15;
 /// Light that is lost at great depth, and the depth at which half of that is lost, relative to the diagonal
 /// of the scene's box: tells near from far where the angles are the same.
-constexpr double kFade = 0.5;
+constexpr double kFade = 0.35;
 constexpr double kFadeLength = 0.2;
 /// What is lit by the whole hemisphere.
 constexpr float kAoWhite = 0.85f;

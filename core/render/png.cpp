@@ -18,7 +18,8 @@ namespace boxwood {
 namespace {
 
 constexpr const char* kSessionKeyword = "boxwood-session";
-constexpr size_t kMaxSessionBytes = size_t{16} << 20;
+/// Of a chunk that is not pixels: libpng takes memory for what its length claims, before it reads it.
+constexpr uint32_t kMaxChunkBytes = 1u << 24;
 constexpr png_uint_32 kMaxSide = 1u << 16;
 
 /// libpng reports an error by a jump back into the function that called it. What must live through the jump
@@ -106,7 +107,7 @@ bool decode(Codec& codec) {
     if (setjmp(png_jmpbuf(codec.png)) != 0) return false;
     png_set_read_fn(codec.png, &codec, read_bytes);
     png_set_user_limits(codec.png, kMaxSide, kMaxSide);
-    png_set_chunk_malloc_max(codec.png, kMaxSessionBytes);
+    png_set_chunk_malloc_max(codec.png, kMaxChunkBytes);
     png_set_chunk_cache_max(codec.png, 128);
     png_read_info(codec.png, codec.info);
     const size_t width = png_get_image_width(codec.png, codec.info);
@@ -127,6 +128,19 @@ bool decode(Codec& codec) {
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
     throw Error(ExitCode::BadInput, path + ": cannot be read as a PNG picture: " + reason);
+}
+
+/// Walks the chunks of a file that is placed behind its signature, and returns there.
+void check_chunk_lengths(std::FILE* file, const std::string& path) {
+    const long begin = std::ftell(file);
+    for (png_byte head[8]; std::fread(head, 1, sizeof head, file) == sizeof head;) {
+        const uint32_t length = png_get_uint_32(head);
+        const bool pixels = std::memcmp(head + 4, "IDAT", 4) == 0;
+        if (!pixels && length > kMaxChunkBytes) fail(path, "a chunk claims to be larger than is read");
+        if (std::fseek(file, static_cast<long>(length) + 4, SEEK_CUR) != 0) break;
+    }
+    std::clearerr(file);
+    if (begin < 0 || std::fseek(file, begin, SEEK_SET) != 0) fail(path, "it is not a regular file");
 }
 
 }  // namespace
@@ -156,6 +170,7 @@ PngFile read_png(const std::string& path) {
         png_sig_cmp(signature, 0, sizeof signature) != 0) {
         fail(path, "it does not begin with a PNG signature");
     }
+    check_chunk_lengths(file.get(), path);
     Codec codec;
     codec.file = file.get();
     codec.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &codec, on_error, on_warning);
