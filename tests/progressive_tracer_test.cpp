@@ -101,8 +101,8 @@ TEST(ProgressiveTracer, ARestartEndsInTheOtherPictureAndKeepsTheOldUntilThen) {
     EXPECT_EQ(image, reference(*scene, structure, settings).image);
 }
 
-TEST(ProgressiveTracer, AStopAnswersAfterTheRayThatIsUnderWay) {
-    const std::shared_ptr<Scene> scene = random_scene(40000, 0.02f);
+TEST(ProgressiveTracer, AStopDoesNotFinishTheTile) {
+    const std::shared_ptr<Scene> scene = random_scene(25000, 0.02f);
     const Structure structure = structure_by(BruteForceBuilder{}, *scene);
     const std::vector<Ray> ray(1, Ray{.origin = Vec3(0.0f, 0.0f, -3.0f)});
     std::vector<Hit> hit(1);

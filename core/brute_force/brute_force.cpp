@@ -1,17 +1,31 @@
 #include "core/brute_force/brute_force.h"
 
+#include <algorithm>
+
 namespace boxwood {
+
+namespace {
+
+/// Primitives between two looks at a stop: well below a millisecond.
+constexpr size_t kBlock = 4096;
+
+std::span<const uint32_t> block_at(std::span<const uint32_t> prims, size_t begin) {
+    return prims.subspan(begin, std::min(kBlock, prims.size() - begin));
+}
+
+}  // namespace
 
 template <Mode mode, class Counter>
 void BruteForce::closest_hit(const Mesh& mesh, ClosestHit<mode>& closest, Counter& count) const {
-    for (const uint32_t prim : prims) closest.test(mesh.triangle(prim), prim, count);
+    for (size_t begin = 0; begin < prims.size() && !closest.stopped(); begin += kBlock)
+        for (const uint32_t prim : block_at(prims, begin)) closest.test(mesh.triangle(prim), prim, count);
 }
 
 template <Mode mode, class Counter>
 bool BruteForce::any_hit(const Mesh& mesh, ClosestHit<mode>& ray, Counter& count) const {
-    for (const uint32_t prim : prims) {
-        if (ray.occludes(mesh.triangle(prim), count)) return true;
-    }
+    for (size_t begin = 0; begin < prims.size() && !ray.stopped(); begin += kBlock)
+        for (const uint32_t prim : block_at(prims, begin))
+            if (ray.occludes(mesh.triangle(prim), count)) return true;
     return false;
 }
 

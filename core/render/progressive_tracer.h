@@ -44,7 +44,8 @@ public:
     /// snapshot() until the coarse one is whole.
     void start(std::shared_ptr<const Scene> scene, Structure structure, const TraceSettings& settings);
 
-    /// Returns when the last worker is idle: each ends after the ray it is at. What was traced stays.
+    /// Returns when the last worker is idle: each looks for a stop several times in a millisecond, also
+    /// within a ray of brute force. What was traced stays.
     void stop();
 
     /// Returns when the picture has converged (true), or after `milliseconds` (false). Without a start: true.

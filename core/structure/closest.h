@@ -6,6 +6,7 @@
 
 #include "core/base/box.h"
 #include "core/base/ray.h"
+#include "core/base/task.h"
 #include "core/scene/mesh.h"
 
 namespace boxwood {
@@ -69,6 +70,16 @@ private:
     uint32_t negative_[3];  ///< 1 where the direction's sign bit is set
 };
 
+/// Tells a search that takes long for one ray to end early: its answer is then thrown away unread.
+class StoppableSearch {
+public:
+    void watch(const Task& task) { task_ = &task; }
+    bool stopped() const { return task_ != nullptr && task_->stopped(); }
+
+private:
+    const Task* task_ = nullptr;
+};
+
 /// The search for the nearest hit of one ray: box tests, triangle tests and the best hit so far.
 template <Mode mode>
 class ClosestHit;
@@ -76,7 +87,7 @@ class ClosestHit;
 /// Exact: hit or miss, and the order of hits, are those of exact arithmetic on the input floats; ties go to
 /// the lower primitive. The reported t is the exact one, rounded once to nearest.
 template <>
-class ClosestHit<Mode::Exact> {
+class ClosestHit<Mode::Exact> : public StoppableSearch {
 public:
     explicit ClosestHit(const Ray& ray);
 
@@ -157,7 +168,7 @@ private:
 /// relative error of some units of 2^-24. Wrong answers occur only where a ray passes within rounding of an
 /// edge or two hits are within rounding of each other.
 template <>
-class ClosestHit<Mode::Fast> {
+class ClosestHit<Mode::Fast> : public StoppableSearch {
 public:
     explicit ClosestHit(const Ray& ray);
 
@@ -209,8 +220,9 @@ private:
     }
 
     static constexpr double kPad = 1.0 + 0x1p-20;  ///< 16 units of 2^-24: covers the error of t
-    /// 64 units of 2^-24: by the derivation above an edge function is off by 20 u X m, X the largest |x|, |y|, which is
-    /// a distance of 20 u m X / |edge| from the edge, where X <= 3 |edge| for a ray that passes so close.
+    /// 64 units of 2^-24: by the derivation above an edge function is off by 20 u X m, X the largest |x|,
+    /// |y|, which is a distance of 20 u m X / |edge| from the edge, where X <= 3 |edge| for a ray that passes
+    /// so close.
     static constexpr double kMargin = 0x1p-18;
 
     Ray ray_;

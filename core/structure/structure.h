@@ -37,7 +37,7 @@ public:
     explicit Structure(S structure) : self_(std::make_shared<Model<S>>(std::move(structure))) {}
 
     /// Nearest hit of each ray; hits.size() == rays.size(). A ray that is not valid (see is_valid) misses.
-    /// Stops between two rays when task.stop is requested, and leaves the rest unwritten.
+    /// Stops when task.stop is requested: what is then written or not is not to be read.
     void closest_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits, Mode mode,
                       const Task& task) const {
         self_->closest_hits(mesh, rays, hits, {}, mode, task);
@@ -87,6 +87,7 @@ private:
                 if (!counts.empty()) counts[i] = Count{};
                 if (!is_valid(rays[i])) continue;
                 ClosestHit<mode> closest(rays[i]);
+                closest.watch(task);
                 if (counts.empty()) {
                     NoCount no_count;
                     structure.closest_hit(mesh, closest, no_count);
@@ -103,6 +104,7 @@ private:
                 occluded[i] = 0;
                 if (!is_valid(rays[i])) continue;
                 ClosestHit<mode> closest(rays[i]);
+                closest.watch(task);
                 NoCount no_count;
                 occluded[i] = structure.any_hit(mesh, closest, no_count) ? 1 : 0;
             }
