@@ -41,6 +41,9 @@ void check_loaded(const Row& row, const Scene& scene, const Task& task) {
     uint64_t skipped = 0;
     if (const auto found = scene.skipped.find("zero area"); found != scene.skipped.end())
         skipped = found->second;
+    if (row.expect == "load") {
+        EXPECT_EQ(skipped, 0u) << row.file;
+    }
     if (row.triangles != "-") {
         EXPECT_EQ(mesh.triangle_count() + skipped, std::stoull(row.triangles)) << row.file;
     }

@@ -52,6 +52,25 @@ bool is_convex(const std::vector<DVec2>& points) {
     return true;
 }
 
+/// The first corner whose fan has no triangle without area, as straight corners beside it make;
+/// corner 0 if none is found among the first candidates.
+size_t fan_center(const std::vector<DVec2>& points) {
+    constexpr int kMaxCandidates = 64;  // keeps the time linear in the corners
+    const size_t n = points.size();
+    int candidates = 0;
+    for (size_t center = 0; center < n && candidates < kMaxCandidates; ++center) {
+        const auto is_good = [&points, n, center](size_t i) {
+            return turn(points[center], points[(center + i) % n], points[(center + i + 1) % n]) != 0.0;
+        };
+        if (!is_good(1) || !is_good(n - 2)) continue;
+        ++candidates;
+        size_t i = 2;
+        while (i + 2 < n && is_good(i)) ++i;
+        if (i + 2 >= n) return center;
+    }
+    return 0;
+}
+
 /// Cuts ears off a ring of corners until a triangle is left.
 class EarClipper {
 public:
@@ -145,7 +164,9 @@ void cut_polygon(std::span<const Vec3> positions, std::span<const uint32_t> corn
         EarClipper(points, corners).cut(triangles);
         return;
     }
-    for (size_t i = 2; i < corners.size(); ++i) triangles.push_back({corners[0], corners[i - 1], corners[i]});
+    const size_t n = corners.size(), center = fan_center(points);
+    for (size_t i = 1; i + 1 < n; ++i)
+        triangles.push_back({corners[center], corners[(center + i) % n], corners[(center + i + 1) % n]});
 }
 
 }  // namespace boxwood
