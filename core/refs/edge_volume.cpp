@@ -23,8 +23,7 @@ struct Piece {
 
 /// The same for both orders of the ends: the sign of a difference is exact, the factors are in axis order.
 double volume(const DVec3& a, const DVec3& b) {
-    const DVec3 d = glm::abs(b - a);
-    return d.x * d.y * d.z;
+    return std::abs(b.x - a.x) * std::abs(b.y - a.y) * std::abs(b.z - a.z);
 }
 
 /// Turns the piece so that ab is its largest edge; of equal ones the first in the order ab, bc, ca. Which of
