@@ -1,5 +1,8 @@
 #include "core/structure/closest.h"
 
+#include <bit>
+#include <numeric>
+
 #include "core/base/expansion.h"
 
 namespace boxwood {
@@ -35,6 +38,17 @@ Expansion dot(const Vec3& a, const ExactVec3& b) {
 }
 
 Expansion dot(const ExactVec3& a, const ExactVec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/// Place of a float among all floats in ascending order; both zeros have place 0.
+int32_t ordered(float value) {
+    const int32_t bits = std::bit_cast<int32_t>(value);
+    return bits >= 0 ? bits : std::numeric_limits<int32_t>::min() - bits;
+}
+
+/// The inverse; +0 at place 0.
+float float_at(int32_t place) {
+    return std::bit_cast<float>(place >= 0 ? place : std::numeric_limits<int32_t>::min() - place);
+}
 
 /// t = numerator / denominator of the ray and the triangle's plane, exactly.
 struct ExactT {
@@ -168,20 +182,25 @@ Hit ClosestHit<Mode::Exact>::hit(const Mesh&) const {
     if (prim_ == kNoIndex) return {};
     const float lower = static_cast<float>(t_lower_), upper = static_cast<float>(t_upper_);
     if (lower == upper) return {upper, prim_};
-    // Rounding is monotonic, so the result lies in [lower, upper]; go up while t is beyond the midpoint to
-    // the next float (a double), at a tie to the even one.
+    // Rounding is monotonic, so the result lies in [lower, upper]. That can be very many floats where t is
+    // near 0 (a ray that starts on the triangle), so halve their number: a float is too low where t is beyond
+    // the midpoint (a double) to the next one.
     const ExactT exact(ray_, best_);
-    float t = lower;
-    while (t < upper) {
-        const float next = std::nextafter(t, std::numeric_limits<float>::infinity());
+    int32_t first = ordered(lower), last = ordered(upper);
+    while (first < last) {
+        const int32_t middle = std::midpoint(first, last);
+        const float t = float_at(middle), next = float_at(middle + 1);
         const double above = std::isinf(next) ? 0x1p128 : static_cast<double>(next);
-        const int order = exact.compare(0.5 * (static_cast<double>(t) + above));
-        if (order < 0) break;
-        // At the midpoint the double-to-float conversion picks the even neighbour.
-        if (order == 0) return {static_cast<float>(0.5 * (static_cast<double>(t) + above)), prim_};
-        t = next;
+        const double border = 0.5 * (static_cast<double>(t) + above);
+        const int order = exact.compare(border);
+        if (order == 0) return {static_cast<float>(border), prim_};  // a tie goes to the even neighbour
+        if (order < 0) {
+            last = middle;
+        } else {
+            first = middle + 1;
+        }
     }
-    return {t, prim_};
+    return {float_at(first), prim_};
 }
 
 ClosestHit<Mode::Fast>::ClosestHit(const Ray& ray)
