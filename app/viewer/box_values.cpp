@@ -24,7 +24,8 @@ std::vector<double> sah_terms(const NodeList& list) {
     std::vector<double> terms;
     terms.reserve(list.nodes.size());
     for (const NodeView& node : list.nodes) {
-        const double cost = node.kind == NodeKind::Leaf ? leaf_cost(node.ref_count) : double{kTraversalCost};
+        const double cost =
+            node.kind == NodeKind::Leaf ? leaf_cost(node.ref_count) : static_cast<double>(kTraversalCost);
         terms.push_back(hit_probability(node.bounds.half_area(), root_area) * cost);
     }
     return terms;

@@ -17,7 +17,7 @@ struct MapPart {
 };
 constexpr MapPart kDarkPart = {0.28f, 1.0f};
 constexpr MapPart kLightPart = {0.0f, 0.76f};
-constexpr float kShareDecades = 1e-5f;  // shares below this part of the largest look alike
+constexpr double kShareSpan = 1e-5;  // shares below this part of the largest look alike
 
 void set_theme(DrawList& list, Theme theme) {
     const bool is_dark = theme == Theme::Dark;
@@ -39,17 +39,19 @@ ColorScale make_colors(const ViewerState& state, int last_level, const BoxValues
         const float x = static_cast<float>(i) / static_cast<float>(kPaletteSize - 1);
         colors.palette[i] = map_linear(ColorMap::Viridis, part.from + x * (part.to - part.from));
     }
-    const ValueRange& references = values.references_range;
-    const ValueRange& share = values.sah_share_range;
+    const auto share_most = static_cast<double>(values.sah_share_range.upper);
+    const auto share_least =
+        std::max(static_cast<double>(values.sah_share_range.lower), kShareSpan * share_most);
     switch (state.box_color) {
         case BoxColor::Level:
             colors.scale = {0.0, std::max(1.0, static_cast<double>(last_level)), false};
             break;
         case BoxColor::Primitives:
-            colors.scale = {references.lower, references.upper, true};
+            colors.scale = {static_cast<double>(values.references_range.lower),
+                            static_cast<double>(values.references_range.upper), true};
             break;
         case BoxColor::SahShare:
-            colors.scale = {std::max(share.lower, kShareDecades * share.upper), share.upper, true};
+            colors.scale = {share_least, share_most, true};
             break;
     }
     return colors;
