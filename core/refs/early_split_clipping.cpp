@@ -9,8 +9,8 @@ namespace boxwood {
 
 namespace {
 
-// Each split halves the longest extent. Of the ordinary depths, 2 s and the number of halvings that make a
-// needle's box a cube, none is near this bound, which a box deeper down, left whole, makes the stack's.
+// Bounds the stack. Each split halves the longest extent: an area is down to S / 2^s after about s splits,
+// and after one more for each halving that makes a needle's box a cube. What would be deeper stays whole.
 constexpr int kMaxDepth = 256;
 
 struct Piece {

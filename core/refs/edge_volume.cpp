@@ -12,8 +12,9 @@ namespace {
 // Why it ends. A cut edge is longer than a fixed length in every axis, since its volume is above the
 // threshold and no extent exceeds the scene's. The largest edge of a piece is halved, and the median, the
 // only new edge, is never longer than the longer of the two edges beside it; so a piece that is cut for ever
-// would shrink below that length. Seen: no piece deeper than 2 ceil(t / 3) + 4. What is deeper than this
-// bound stays whole, which is correct at any depth; it bounds the stack.
+// would shrink below that length. Among 3,000 random triangles and needles as large as the scene, t from 3 to
+// 18, no piece was deeper than t; t is at most 40. What would be deeper than this bound stays whole, which is
+// correct at any depth: it bounds the stack.
 constexpr int kMaxDepth = 96;
 
 struct Piece {
