@@ -15,6 +15,7 @@ constexpr Command kCommands[] = {
     {"trace", "renders a picture with the CPU ray tracer", run_trace},
     {"stats", "builds structures and prints what they are made of", run_stats},
     {"verify", "compares the hits of structures with brute force, ray by ray", run_verify},
+    {"stress", "casts rays that are hard for floating point, judged by exact arithmetic", run_stress},
     {"cast", "casts the rays of a file", run_cast},
     {"scenes", "lists the built-in scenes", run_scenes},
     {"list", "lists the stages of recipes with their parameters", run_list},

@@ -28,6 +28,7 @@ ExitCode run_cast(Arguments arguments);
 ExitCode run_list(Arguments arguments);
 ExitCode run_scenes(Arguments arguments);
 ExitCode run_stats(Arguments arguments);
+ExitCode run_stress(Arguments arguments);
 ExitCode run_trace(Arguments arguments);
 ExitCode run_verify(Arguments arguments);
 
