@@ -126,7 +126,7 @@ void subdivide(Mesh& mesh, int times, Task& task) {
         parts * (1.0 + mesh.source_prim.back()) > 0x1p32) {
         throw Error(ExitCode::WrongUsage, "@subdivide=" + std::to_string(times) + " would make more than " +
                                               std::to_string(kMaxSubdividedTriangles / 1'000'000) +
-                                              " million triangles of " +
+                                              " million triangles out of " +
                                               std::to_string(mesh.triangles.size()));
     }
     task.done = 0;
