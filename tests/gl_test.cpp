@@ -225,10 +225,44 @@ TEST_F(GlTest, DrawsTheLargestOnScreenWhereTheBudgetEnds) {
     EXPECT_EQ(at(image, 150, 140).red, 255);  // left edges of the large boxes
     EXPECT_EQ(at(image, 150, 60).red, 255);
     for (int x = 10; x < 140; ++x) EXPECT_EQ(at(image, x, 100).red, 0) << x;
-    list.box_budget = 4500;  // ends amid boxes of one size, in the second group of the selection
+    list.box_budget = 4500;
     draw(list, front_camera(true));
     EXPECT_EQ(renderer_.box_counts().drawn, 4500u);
     EXPECT_EQ(renderer_.box_counts().over_budget, 502u);
+}
+
+/// A flat box of these pixels of the picture, seen by the orthographic front_camera.
+Box pixel_box(int left, int top, int size) {
+    const auto x = static_cast<float>(left - 100), y = static_cast<float>(100 - top - size);
+    const auto side = static_cast<float>(size);
+    return {Vec3(x, y, 0.0f) / 50.0f, Vec3(x + side, y + side, 0.0f) / 50.0f};
+}
+
+TEST_F(GlTest, OfBoxesOfOneSizeTheFirstAreDrawnAndAllLargerOnes) {
+    // Equal boxes at level 1 (of 9 pixels, clear of the limits of a bin), with 5000 of their size outside the
+    // view between them, and four larger ones after them: the choice runs over several groups of boxes.
+    NodeList nodes = root_with_leaves({});
+    const auto add = [&](const Box& box, uint32_t level) {
+        nodes.nodes.push_back(node(box, 0, level, NodeKind::Leaf));
+    };
+    const auto small = [](int i) { return pixel_box(5 + 15 * (i % 10), 5 + 15 * (i / 10), 9); };
+    for (int i = 0; i < 50; ++i) add(small(i), 1);
+    for (int i = 0; i < 5000; ++i) add(pixel_box(400, 0, 9), 1);
+    for (int i = 50; i < 100; ++i) add(small(i), 1);
+    for (int i = 0; i < 4; ++i) add(pixel_box(160, 10 + 45 * i, 30), 2);
+    LevelTable levels = make_level_table(nodes);
+    // In the order of the nodes: areas that are equal on paper differ by rounding.
+    for (uint32_t i = 0; i < levels.order.size(); ++i) levels.order[i] = i;
+    set_boxes(levels);
+    DrawList list = plain_list(levels, {1, 2});
+    list.box_budget = 4 + 70;
+    const Image image = draw(list, front_camera(true));
+    EXPECT_EQ(renderer_.box_counts().drawn, 74u);
+    for (int i = 0; i < 100; ++i) {
+        const bool is_drawn = at(image, 5 + 15 * (i % 10), 5 + 15 * (i / 10) + 4).red > 200;
+        EXPECT_EQ(is_drawn, i < 70) << i;
+    }
+    for (int i = 0; i < 4; ++i) EXPECT_GT(at(image, 160, 25 + 45 * i).red, 200) << i;
 }
 
 TEST_F(GlTest, UploadsNothingWhenRangeColoursOrStyleChange) {
