@@ -12,7 +12,7 @@ constexpr double kPi = 3.14159265358979323846;
 bool is_finite(const DVec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 double tan_half_fov(float fov) {
-    const double degrees = std::isfinite(fov) ? std::clamp(double{fov}, 1.0, 170.0) : 45.0;
+    const double degrees = std::isfinite(fov) ? std::clamp(static_cast<double>(fov), 1.0, 170.0) : 45.0;
     return std::tan(degrees * (kPi / 360.0));
 }
 
@@ -33,7 +33,7 @@ DVec3 right_of(const DVec3& forward, const DVec3& up) {
 }
 
 float to_finite_float(double x) {
-    constexpr double kMax = std::numeric_limits<float>::max();
+    constexpr double kMax = static_cast<double>(std::numeric_limits<float>::max());
     return static_cast<float>(std::clamp(x, -kMax, kMax));
 }
 

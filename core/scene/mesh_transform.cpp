@@ -47,8 +47,9 @@ void transform(Mesh& mesh, const AffineMap& map) {
     const DVec3 cofactors[] = {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
     const double sign = glm::determinant(m) < 0.0 ? -1.0 : 1.0;
     for (Vec3& normal : mesh.points.normals) {
-        const DVec3 n = sign * (cofactors[0] * double{normal.x} + cofactors[1] * double{normal.y} +
-                                cofactors[2] * double{normal.z});
+        const DVec3 n = sign * (cofactors[0] * static_cast<double>(normal.x) +
+                                cofactors[1] * static_cast<double>(normal.y) +
+                                cofactors[2] * static_cast<double>(normal.z));
         const double length = glm::length(n);
         if (length > 0.0) normal = Vec3(n / length);
     }

@@ -33,8 +33,10 @@ concept AccelerationStructure = std::movable<S> &&
 /// loop.
 class Structure {
 public:
-    template <AccelerationStructure S>
-    explicit Structure(S structure) : self_(std::make_shared<Model<S>>(std::move(structure))) {}
+    /// Never for Structure itself: checking that constraint for a copy would check it for a copy again.
+    template <class S>
+    requires(!std::same_as<S, Structure>) && AccelerationStructure<S> explicit Structure(S structure)
+        : self_(std::make_shared<Model<S>>(std::move(structure))) {}
 
     /// Nearest hit of each ray; hits.size() == rays.size(). A ray that is not valid (see is_valid) misses.
     /// Stops when task.stop is requested: what is then written or not is not to be read.

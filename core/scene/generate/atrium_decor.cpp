@@ -14,8 +14,9 @@ void use_marble(MeshBuilder& b) { b.use_object("marble", {0.80f, 0.76f, 0.68f});
 void use_bronze(MeshBuilder& b) { b.use_object("bronze", {0.42f, 0.28f, 0.10f}); }
 
 void add_curtain(MeshBuilder& b, double bay, double top, Rng& rng) {
-    const double phase = double{rng.next(0.0f, 6.0f)}, folds = double{rng.next(5.0f, 7.0f)};
-    const double bottom = double{rng.next(0.7f, 1.0f)};
+    const double phase = static_cast<double>(rng.next(0.0f, 6.0f)),
+                 folds = static_cast<double>(rng.next(5.0f, 7.0f));
+    const double bottom = static_cast<double>(rng.next(0.7f, 1.0f));
     b.add_surface(28, 8, [&](double u, double v) {
         const double depth = (0.05 + 0.09 * v) * std::sin(2.0 * kPi * folds * u + phase + 0.6 * v);
         const double narrow = 1.0 - 0.10 * std::sin(kPi * v);
@@ -34,8 +35,9 @@ void add_vase(MeshBuilder& b, const DVec3& foot, Rng& rng) {
     b.add_turned(foot, {0, 1, 0}, kProfile, 18);
     b.use_object("leaves", {0.10f, 0.28f, 0.06f});
     for (int i = 0; i < 26; ++i) {
-        const double angle = double{rng.next(0.0f, 6.2832f)}, reach = double{rng.next(0.3f, 0.75f)};
-        const double height = double{rng.next(0.25f, 1.0f)};
+        const double angle = static_cast<double>(rng.next(0.0f, 6.2832f)),
+                     reach = static_cast<double>(rng.next(0.3f, 0.75f));
+        const double height = static_cast<double>(rng.next(0.25f, 1.0f));
         const DVec3 out(std::cos(angle), 0, std::sin(angle)), side(-0.055 * out.z, 0, 0.055 * out.x);
         b.add_surface(1, 3, [&](double u, double v) {
             const DVec3 spine = foot + DVec3(0, 0.86 + height * v * (1.6 - v * v), 0) + out * (reach * v * v);

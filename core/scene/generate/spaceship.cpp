@@ -162,10 +162,12 @@ void add_pipes(MeshBuilder& b, Rng& rng) {
         const size_t section = 1 + rng.next_index(kStations.size() - 2);
         const double front = kStations[section].x, back = kStations[section + 1].x;
         const bool is_long = i < 30;
-        const double length = is_long ? 0.85 * (front - back) : double{rng.next(8.0f, 12.0f)};
+        const double length = is_long ? 0.85 * (front - back) : static_cast<double>(rng.next(8.0f, 12.0f));
         const double radius = is_long ? 0.35 : 0.09;
-        const double start = front - 1.0 - double{rng.next()} * std::max(0.0, front - back - length - 2.0);
-        const double around = double{rng.next(0.0f, 8.0f)}, height = (is_long ? 0.8 : 0.5) + radius;
+        const double start =
+            front - 1.0 - static_cast<double>(rng.next()) * std::max(0.0, front - back - length - 2.0);
+        const double around = static_cast<double>(rng.next(0.0f, 8.0f)),
+                     height = (is_long ? 0.8 : 0.5) + radius;
         b.add_tube(hull_point(start, around, height), hull_point(start - length, around, height), radius,
                    radius, is_long ? 8 : 5);
     }
@@ -279,7 +281,8 @@ void add_tower(MeshBuilder& b, Rng& rng) {
 void add_guns(MeshBuilder& b, Rng& rng) {
     for (int i = 0; i < 16; ++i) {
         for (const double around : {0.82, 4.18, 6.75, 7.25}) {
-            const double x = 110.0 - 15.5 * i, radius = 1.0 + 0.07 * i, aim = double{rng.next(-0.5f, 0.5f)};
+            const double x = 110.0 - 15.5 * i, radius = 1.0 + 0.07 * i,
+                         aim = static_cast<double>(rng.next(-0.5f, 0.5f));
             const DVec3 foot = hull_point(x, around, 0.5),
                         up = glm::normalize(hull_point(x, around, 1.5) - foot);
             const ProfilePoint dome[] = {{1.25 * radius, -0.4},
@@ -309,8 +312,10 @@ void add_guns(MeshBuilder& b, Rng& rng) {
 void add_antennas(MeshBuilder& b, Rng& rng) {
     use_lattice(b);
     for (int i = 0; i < 220; ++i) {
-        const double x = double{rng.next(-180.0f, 160.0f)}, around = double{rng.next(0.0f, 8.0f)};
-        const double length = double{rng.next(3.0f, 11.0f)}, rake = double{rng.next(0.2f, 0.7f)};
+        const double x = static_cast<double>(rng.next(-180.0f, 160.0f)),
+                     around = static_cast<double>(rng.next(0.0f, 8.0f));
+        const double length = static_cast<double>(rng.next(3.0f, 11.0f)),
+                     rake = static_cast<double>(rng.next(0.2f, 0.7f));
         const DVec3 foot = hull_point(x, around), up = hull_point(x, around, 1.0) - foot;
         b.add_tube(foot, foot + length * glm::normalize(up - DVec3(rake, 0, 0)), 0.06, 0.02, 4);
     }

@@ -15,8 +15,8 @@ constexpr double kSide = 100.0;   // of the square, in world units
 constexpr double kHeight = 27.0;  // from the lowest valley to the highest summit there can be
 
 double lattice_value(int64_t x, int64_t z, int octave) {
-    return double{hashed_float(static_cast<uint32_t>(x), static_cast<uint32_t>(z),
-                               static_cast<uint32_t>(octave), 20081)};
+    return static_cast<double>(hashed_float(static_cast<uint32_t>(x), static_cast<uint32_t>(z),
+                                            static_cast<uint32_t>(octave), 20081));
 }
 
 /// Value noise in [0, 1]: random values at whole coordinates, between them a blend with continuous second
