@@ -1,4 +1,5 @@
-// The edges of boxes as quads of constant width in pixels: 12 edges of four vertices each.
+// The edges of boxes as quads of constant width in pixels: 12 edges of four vertices
+// each.
 #include "frame.glsl"
 #include "box_instance.glsl"
 
@@ -7,6 +8,7 @@ layout(std430, binding = 4) readonly buffer Drawn { float drawn[]; };
 const int kByLevel = 0, kByReferences = 1, kBySahShare = 2, kByPrimitive = 3, kOneColor = 4;
 const int kPaletteSize = 64;
 const float kBias = 6.0;  // pixels towards the eye, so that an edge on a surface stays visible
+const float kDotSize = 4.0;  // line widths: a smaller box is one square, since its edges would fill it
 
 uniform int coloring;
 uniform vec2 scale;  // value of the palette's first and last colour
@@ -48,33 +50,48 @@ vec3 box_color(NodeBox box) {
     return one_color;
 }
 
-// Boxes of a few pixels would hide all behind them, and each other.
-float opacity_of(NodeBox box, float depth) {
-    float pixels = length(box.upper - box.lower) / pixel_size(max(depth, nearest_depth()));
-    float size_opacity = 1.0 - size_fade * (1.0 - smoothstep(2.0, 40.0, pixels));
+// Boxes of a few pixels would hide all behind them, and each other: they are fainter, and have no casing.
+float size_on_screen(NodeBox box, float depth) {
+    return length(box.upper - box.lower) / pixel_size(max(depth, nearest_depth()));
+}
+
+float opacity_of(float size, float depth) {
+    float size_opacity = 1.0 - size_fade * (1.0 - smoothstep(2.0, 40.0, size));
     return size_opacity * (1.0 - depth_fade * smoothstep(viewport.z, viewport.w, depth));
+}
+
+// Clips the segment to what lies before the eye; false if nothing does.
+bool clip_near(inout vec3 a, inout vec3 b) {
+    float nearest = nearest_depth();
+    if (-a.z < nearest && -b.z < nearest) return false;
+    if (-a.z < nearest) a = mix(a, b, (nearest + a.z) / (a.z - b.z));
+    if (-b.z < nearest) b = mix(b, a, (nearest + b.z) / (b.z - a.z));
+    return true;
 }
 
 void main() {
     NodeBox box = READ_BOX(drawn, uint(gl_InstanceID));
     int edge = gl_VertexID >> 2;
-    int quad_corner = gl_VertexID & 3;
+    bool is_end = (gl_VertexID & 1) != 0;
+    float side = (gl_VertexID & 2) != 0 ? 1.0 : -1.0;
+    gl_Position = vec4(0.0, 0.0, -1.0, 1.0);  // outside the view
+    color = vec4(0.0);
+    across = 0.0;
+
+    vec3 center = (view * vec4(0.5 * (box.lower + box.upper), 1.0)).xyz;
+    float size = size_on_screen(box, -center.z);
+    bool is_dot = size < kDotSize * line_width;
+    if (is_dot && edge != 0) return;
+
     int axis = edge >> 2;
     vec3 from = box.lower;
     from[(axis + 1) % 3] = (edge & 1) != 0 ? box.upper[(axis + 1) % 3] : box.lower[(axis + 1) % 3];
     from[(axis + 2) % 3] = (edge & 2) != 0 ? box.upper[(axis + 2) % 3] : box.lower[(axis + 2) % 3];
     vec3 to = from;
     to[axis] = box.upper[axis];
-
-    vec3 a = (view * vec4(from, 1.0)).xyz;
-    vec3 b = (view * vec4(to, 1.0)).xyz;
-    float nearest = nearest_depth();
-    gl_Position = vec4(0.0, 0.0, -1.0, 1.0);
-    color = vec4(0.0);
-    across = 0.0;
-    if (-a.z < nearest && -b.z < nearest) return;
-    if (-a.z < nearest) a = mix(a, b, (nearest + a.z) / (a.z - b.z));
-    if (-b.z < nearest) b = mix(b, a, (nearest + b.z) / (b.z - a.z));
+    vec3 a = is_dot ? center : (view * vec4(from, 1.0)).xyz;
+    vec3 b = is_dot ? center : (view * vec4(to, 1.0)).xyz;
+    if (!clip_near(a, b)) return;
 
     vec4 clip_a = project(a), clip_b = project(b);
     vec2 pixel_a = 0.5 * viewport.xy * clip_a.xy / clip_a.w;
@@ -82,15 +99,14 @@ void main() {
     vec2 along = pixel_b - pixel_a;
     float pixels = length(along);
     along = pixels > 1e-4 ? along / pixels : vec2(1.0, 0.0);
-    bool is_end = (quad_corner & 1) != 0;
-    float side = (quad_corner & 2) != 0 ? 1.0 : -1.0;
-    float reach = 0.5 * line_width + casing;
-    across = side * reach;
-    vec2 offset = side * reach * vec2(-along.y, along.x) + 0.5 * line_width * (is_end ? along : -along);
-
     vec3 eye = is_end ? b : a;
     vec4 clip = is_end ? clip_b : clip_a;
+    // A dot is about as wide as the box looks: most boxes are seen at an angle.
+    float half_width = is_dot ? 0.5 * max(0.7 * size, 1.0) : 0.5 * line_width;
+    float reach = half_width + casing * smoothstep(8.0, 32.0, size);
+    across = is_dot ? 0.0 : side * reach;
+    vec2 offset = side * reach * vec2(-along.y, along.x) + half_width * (is_end ? along : -along);
     vec4 pulled = project(eye + vec3(0.0, 0.0, kBias * pixel_size(-eye.z)));
     gl_Position = vec4(clip.xy + offset * 2.0 / viewport.xy * clip.w, pulled.z / pulled.w * clip.w, clip.w);
-    color = vec4(srgb_from_linear(box_color(box)), opacity_of(box, -eye.z));
+    color = vec4(srgb_from_linear(box_color(box)), opacity_of(size, -eye.z));
 }
