@@ -17,6 +17,7 @@ constexpr Command kCommands[] = {
     {"verify", "compares the hits of structures with brute force, ray by ray", run_verify},
     {"stress", "casts rays that are hard for floating point, judged by exact arithmetic", run_stress},
     {"cast", "casts the rays of a file", run_cast},
+    {"bench", "measures how quickly the program answers", run_bench},
     {"scenes", "lists the built-in scenes", run_scenes},
     {"list", "lists the stages of recipes with their parameters", run_list},
 };

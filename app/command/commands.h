@@ -24,6 +24,7 @@ std::span<const Command> commands();
 /// Runs `boxwood ARGUMENTS`: a command, --help, --version; without a command: view.
 ExitCode run_program(Arguments arguments);
 
+ExitCode run_bench(Arguments arguments);
 ExitCode run_cast(Arguments arguments);
 ExitCode run_list(Arguments arguments);
 ExitCode run_scenes(Arguments arguments);
