@@ -113,7 +113,7 @@ ExitCode run_bench(Arguments arguments) {
         report.rows.push_back(interact.stops(recipe, stop_count));
         report.rows.push_back(interact.stops(parse_recipe("none"), stop_count));
     });
-    print_report(report, json);
+    if (!report.rows.empty()) print_report(report, json);
     return result;
 }
 

@@ -56,7 +56,7 @@ ExitCode run_stats(Arguments arguments) {
         for (const Recipe& recipe : recipes)
             report.rows.push_back(stats_row(build_shown(recipe, scene, cache, /*with_levels=*/true)));
     });
-    print_report(report, json);
+    if (!report.rows.empty()) print_report(report, json);
     return result;
 }
 

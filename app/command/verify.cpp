@@ -117,7 +117,7 @@ ExitCode run_verify(Arguments arguments) {
         SceneVerifier verifier(spec, static_cast<size_t>(ray_count), static_cast<Mode>(mode));
         for (const Recipe& recipe : recipes) report.rows.push_back(verifier.verify(recipe));
     });
-    print_report(report, json);
+    if (!report.rows.empty()) print_report(report, json);
     const bool any_wrong = std::ranges::any_of(
         report.rows, [](const ReportRow& row) { return std::get<uint64_t>(*row.find("wrong")) > 0; });
     return any_wrong ? ExitCode::CheckFailed : result;

@@ -1,0 +1,222 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "core/render/png.h"
+#include "support/temporary_folder.h"
+
+namespace boxwood {
+namespace {
+
+using Json = nlohmann::json;
+
+/// What a run of the program left behind.
+struct Ended {
+    int exit_code = -1;
+    std::string output;
+    std::string error;
+};
+
+std::string content_of(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The program itself, in a folder of its own.
+class Program : public ::testing::Test {
+protected:
+    Ended run(const std::string& arguments, const std::string& input = "") const {
+        const std::string errors = folder_.write("errors.txt", "");
+        const std::string from = folder_.write("input.txt", input);
+        const std::string command =
+            std::string(BOXWOOD_PROGRAM) + " " + arguments + " 2>'" + errors + "' <'" + from + "'";
+        Ended result;
+        std::FILE* pipe = ::popen(command.c_str(), "r");
+        char block[4096];
+        while (const size_t count = std::fread(block, 1, sizeof(block), pipe))
+            result.output.append(block, count);
+        const int status = ::pclose(pipe);
+        result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        result.error = content_of(errors);
+        return result;
+    }
+    /// Runs it and expects this exit code and these words on standard error.
+    void expect_refusal(const std::string& arguments, int exit_code, const std::string& words) const {
+        const Ended result = run(arguments);
+        EXPECT_EQ(result.exit_code, exit_code) << arguments << ": " << result.error;
+        EXPECT_NE(result.error.find(words), std::string::npos) << arguments << ": " << result.error;
+        EXPECT_EQ(result.output, "") << arguments;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(Program, HelpNamesEveryCommandAndEveryCommandHasHelp) {
+    const Ended help = run("--help");
+    EXPECT_EQ(help.exit_code, 0);
+    for (const char* command : {"trace", "stats", "verify", "cast", "scenes", "list", "bench"}) {
+        EXPECT_NE(help.output.find("\n  " + std::string(command) + " "), std::string::npos) << command;
+        const Ended own = run(std::string(command) + " --help");
+        EXPECT_EQ(own.exit_code, 0) << command;
+        EXPECT_NE(own.output.find("Usage: boxwood " + std::string(command)), std::string::npos) << own.output;
+    }
+    EXPECT_EQ(run("--version").output.substr(0, 8), "boxwood ");
+}
+
+TEST_F(Program, WrongUsageExitsWith2AndNamesTheNearestWord) {
+    expect_refusal("stast cornell", 2, "did you mean stats?");
+    expect_refusal("cornel", 2, "did you mean cornell?");
+    expect_refusal("stats cornell --jsn -", 2, "did you mean --json?");
+    expect_refusal("stats", 2, "SCENE is required");
+    expect_refusal("stats cornell --recipe 'bvh-bined-sah'", 2, "did you mean bvh-binned-sah?");
+    expect_refusal("stats cornell@rott=1", 2, "'@rot'");
+    expect_refusal("verify cornell --rays many", 2, "expected a whole number from 1");
+    expect_refusal("trace cornell --shade hat -o x.png", 2, "did you mean heat?");
+    expect_refusal("trace cornell --size 0x5 -o x.png", 2, "expected WxH");
+    expect_refusal("list more", 2, "one argument too many");
+    expect_refusal("bench interakt", 2, "did you mean interact?");
+    expect_refusal("trace cornell -o no/such/folder/x.png", 2, "no/such/folder/x.png");
+}
+
+TEST_F(Program, InputThatCannotBeReadExitsWith3) {
+    expect_refusal("stats no_such_file.obj --json -", 3, "no_such_file.obj");
+    const std::string points = folder_.write(
+        "points.ply",
+        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+        "end_header\n0 0 0\n1 1 1\n");
+    const Ended run_points = run("stats " + points);
+    EXPECT_EQ(run_points.exit_code, 3);
+    EXPECT_NE(run_points.error.find("2 points and no triangles"), std::string::npos) << run_points.error;
+}
+
+TEST_F(Program, StatsPrintsARowForEachSceneAndRecipe) {
+    const Ended result =
+        run("stats cornell two-triangles -r bvh-sweep-sah -r 'evh(t=12) > bvh-binned-sah' --json -");
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    const Json json = Json::parse(result.output);
+    EXPECT_EQ(json["command"], "stats");
+    EXPECT_EQ(json["scene"], (std::vector<std::string>{"cornell", "two-triangles"}));
+    ASSERT_EQ(json["rows"].size(), 4u);
+    for (const Json& row : json["rows"])
+        for (const char* key : {"scene", "recipe", "triangles", "references", "references_made", "nodes",
+                                "leaves", "levels", "bytes", "sah_cost", "build_ms", "skipped"})
+            EXPECT_TRUE(row.contains(key)) << key;
+    const Json& row = json["rows"][2];
+    EXPECT_EQ(row["scene"], "two-triangles");
+    EXPECT_EQ(row["recipe"], "bvh-sweep-sah");
+    EXPECT_EQ(row["triangles"], 2);
+    EXPECT_EQ(row["references_made"], 2);
+    EXPECT_EQ(row["references"], 2);
+    EXPECT_EQ(json["rows"][3]["recipe"], "evh(t=12) > bvh-binned-sah");
+    EXPECT_GT(json["rows"][3]["references_made"].get<int>(), 2);
+}
+
+TEST_F(Program, AnUnreadableSceneDoesNotKeepTheOthersFromBeingDone) {
+    const Ended result = run("stats no_such_file.obj cornell -r bvh-sweep-sah --json -");
+    EXPECT_EQ(result.exit_code, 3);
+    ASSERT_EQ(Json::parse(result.output)["rows"].size(), 1u);
+}
+
+TEST_F(Program, AJsonFileIsWrittenBesideTheTable) {
+    const std::string file = folder_.write("out.json", "old");
+    const Ended result = run("scenes --json " + file);
+    EXPECT_NE(result.output.find("two-triangles"), std::string::npos);
+    EXPECT_GE(Json::parse(content_of(file))["rows"].size(), 5u);
+}
+
+TEST_F(Program, ListGivesTheThreeTables) {
+    const Json json = Json::parse(run("list --json -").output);
+    EXPECT_EQ(json["references"][0]["id"], "whole");
+    EXPECT_EQ(json["builders"][0]["id"], "none");
+    EXPECT_TRUE(json["transforms"].is_array());
+    const Ended text = run("list");
+    EXPECT_NE(text.output.find("t=14 (0 to 40)"), std::string::npos) << text.output;
+}
+
+TEST_F(Program, VerifyComparesEveryStageWithBruteForce) {
+    const Ended result = run("verify two-triangles cornell --rays 400 --json -");
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    const Json json = Json::parse(result.output);
+    EXPECT_GE(json["rows"].size(), 24u);
+    for (const Json& row : json["rows"]) {
+        EXPECT_EQ(row["wrong"], 0) << row;
+        EXPECT_EQ(row["rays"], 400);
+    }
+}
+
+TEST_F(Program, CastNamesPrimitivesAndDistances) {
+    // The triangle of the file counted as 1 is the only one with an area.
+    const std::string scene =
+        folder_.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 4\nf 1 2 3\n");
+    const std::string rays =
+        "hit 0.25 0.25 2 0 0 -0x1p+1 0 inf\n"
+        "miss 5 5 2 0 0 -1 0 inf\n"
+        "short 0.25 0.25 2 0 0 -1 0 1.5\n";
+    const Ended result = run("cast " + scene + " -r bvh-binned-sah --rays - -o -", rays);
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    EXPECT_EQ(result.output, "hit 1 1\nmiss -1 inf\nshort -1 inf\n");
+    const std::string file = folder_.write("rays.txt", rays);
+    const std::string output = folder_.write("hits.txt", "");
+    EXPECT_EQ(run("cast " + scene + " -r none --rays " + file + " -o " + output).exit_code, 0);
+    EXPECT_EQ(content_of(output), result.output);
+}
+
+TEST_F(Program, CastRefusesABadLineAndLeavesTheOldOutput) {
+    const std::string rays = folder_.write("rays.txt", "a 0 0 0 0 0 1 -1 1\n");
+    const std::string output = folder_.write("hits.txt", "old");
+    expect_refusal("cast cornell --rays " + rays + " -o " + output, 3, "line 1: tmin is -1");
+    EXPECT_EQ(content_of(output), "old");
+}
+
+TEST_F(Program, TraceWritesAPictureAndItsCost) {
+    const std::string file = folder_.write("a.png", "");
+    const Ended result = run("trace cornell --size 40x30 --spp 1 -r bvh-sweep-sah -o " + file + " --json -");
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    const Json row = Json::parse(result.output)["rows"][0];
+    EXPECT_EQ(row["rays"], 40 * 30);
+    for (const char* key : {"trace_ms", "mrays_per_s", "nodes_per_ray", "tests_per_ray"})
+        EXPECT_GT(row[key].get<double>(), 0.0) << key;
+    const PngFile png = read_png(file);
+    EXPECT_EQ(png.image.width, 40);
+    EXPECT_EQ(png.image.height, 30);
+    EXPECT_EQ(Json::parse(png.session_text)["scene"], "cornell");
+}
+
+TEST_F(Program, ACameraComesFromATableOfViews) {
+    const std::string scene = folder_.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const std::string views =
+        folder_.write("views.tsv",
+                      "file\tview\teye_x\teye_y\teye_z\ttarget_x\ttarget_y\ttarget_z\tup_x\tup_y\tup_z\tfov\n"
+                      "a.obj\taway\t0.2\t0.2\t1\t0.2\t0.2\t2\t0\t1\t0\t45\n"
+                      "a.obj\tat\t0.2\t0.2\t1\t0.2\t0.2\t0\t0\t1\t0\t1\n");
+    const auto picture = [&](const std::string& view) {
+        const std::string file = folder_.write(view + ".png", "");
+        const Ended ended = run("trace " + scene + " --size 8x8 --spp 1 -r none --views " + views +
+                                " --view " + view + " -o " + file);
+        EXPECT_EQ(ended.exit_code, 0) << ended.error;
+        return read_png(file).image.rgba;
+    };
+    EXPECT_NE(picture("at"), picture("away"));
+    expect_refusal("trace " + scene + " -r none --views " + views + " --view of", 3, "did you mean at?");
+    expect_refusal("trace " + scene + " -r none --view at", 2, "--views FILE");
+}
+
+TEST_F(Program, BenchInteractTimesStepsAndStops) {
+    const Ended result = run("bench interact -s cornell --steps 2 --first-t 10 --stops 5 --json -");
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    const Json rows = Json::parse(result.output)["rows"];
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0]["times"], 2);
+    EXPECT_EQ(rows[1]["times"], 5);
+    EXPECT_EQ(rows[2]["recipe"], "none");
+    for (const Json& row : rows) EXPECT_LE(row["median_ms"].get<double>(), row["worst_ms"].get<double>());
+}
+
+}  // namespace
+}  // namespace boxwood
