@@ -25,8 +25,11 @@ float depth_behind(float pixels) {
 
 void main() {
     float half_width = 0.5 * line_width;
-    float core = casing > 0.0 ? 1.0 - smoothstep(half_width - 0.4, half_width + 0.4, abs(across)) : 1.0;
-    float edge = casing > 0.0 ? kCasingOpacity * smoothstep(half_width + casing, half_width, abs(across)) : 0.0;
+    float core = 1.0, edge = 0.0;
+    if (casing > 0.0) {
+        core -= smoothstep(half_width - 0.4, half_width + 0.4, abs(across));
+        edge = kCasingOpacity * (1.0 - smoothstep(half_width, half_width + casing, abs(across)));
+    }
     float alpha = max(core, edge);
     gl_FragDepth = core > 0.5 ? gl_FragCoord.z : depth_behind(kCasingDepth);
     result = vec4(mix(casing_color, color.rgb, core / max(alpha, 1e-4)), color.a * opacity * alpha);
