@@ -19,10 +19,11 @@ double Times::percentile(double p) const {
 }
 
 Times time_slider_steps(std::shared_ptr<const Scene> scene, const std::string& builder, int first_t,
-                        int step_count, const ShowBoxes& show, Task& task) {
+                        int step_count, Memory memory, const ShowBoxes& show, Task& task) {
     Times times;
     StageCache cache;
     for (int step = 0; step < step_count; ++step) {
+        if (memory == Memory::None) cache.clear();
         const Timer timer;
         const Recipe recipe = parse_recipe("evh(t=" + std::to_string(first_t + step) + ") > " + builder);
         const std::optional<Built> built = run_recipe(recipe, scene, cache, task, /*with_levels=*/true);

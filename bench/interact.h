@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -22,11 +23,16 @@ struct Times {
 /// What happens to a finished build before its boxes can be drawn, such as the upload.
 using ShowBoxes = std::function<void(const Built&)>;
 
+/// What a step of the slider finds ready.
+enum class Memory : uint8_t {
+    Shared,  ///< one cache: a step whose references an earlier one had too finds its structure there
+    None,    ///< an empty cache: each step runs every stage
+};
+
 /// Steps of the slider of t: `evh(t=T) > BUILDER` for T = first_t, first_t + 1, ... From each step to the end
-/// of `show`, with a cache that holds no step yet. Stages that a step shares with an earlier one are not run
-/// again. Throws Error (WrongUsage) for a builder that is none.
+/// of `show`. Throws Error (WrongUsage) for a builder that is none.
 Times time_slider_steps(std::shared_ptr<const Scene> scene, const std::string& builder, int first_t,
-                        int step_count, const ShowBoxes& show, Task& task);
+                        int step_count, Memory memory, const ShowBoxes& show, Task& task);
 
 /// Stops of the progressive tracer at moments spread over its first 50 ms: from the call of stop() until the
 /// last worker is idle.

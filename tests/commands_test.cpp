@@ -211,10 +211,11 @@ TEST_F(Program, BenchInteractTimesStepsAndStops) {
     const Ended result = run("bench interact -s cornell --steps 2 --first-t 10 --stops 5 --json -");
     ASSERT_EQ(result.exit_code, 0) << result.error;
     const Json rows = Json::parse(result.output)["rows"];
-    ASSERT_EQ(rows.size(), 3u);
+    ASSERT_EQ(rows.size(), 4u);
     EXPECT_EQ(rows[0]["times"], 2);
-    EXPECT_EQ(rows[1]["times"], 5);
-    EXPECT_EQ(rows[2]["recipe"], "none");
+    EXPECT_EQ(rows[1]["times"], 2);
+    EXPECT_EQ(rows[2]["times"], 5);
+    EXPECT_EQ(rows[3]["recipe"], "none");
     for (const Json& row : rows) EXPECT_LE(row["median_ms"].get<double>(), row["worst_ms"].get<double>());
 }
 

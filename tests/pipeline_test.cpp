@@ -67,6 +67,19 @@ TEST(RunRecipe, AChangeRunsTheStagesFromThereOn) {
     EXPECT_EQ(cache.run_count() - before, 9u);  // another scene: all
 }
 
+TEST(RunRecipe, TheSameReferencesByAnotherThresholdAreNotBuiltAgain) {
+    StageCache cache;
+    Task task;
+    const auto scene = small_scene();
+    const auto one = run_recipe(test_recipe("copies(copies=1) > bvh-binned-sah"), scene, cache, task, true);
+    const uint64_t before = cache.run_count();
+    const auto other =
+        run_recipe(test_recipe("copies(copies=1, clip=on) > bvh-binned-sah"), scene, cache, task, true);
+    EXPECT_EQ(cache.run_count() - before, 1u);  // the references
+    EXPECT_EQ(one->levels, other->levels);
+    EXPECT_EQ(print(other->recipe), "copies(copies=1, clip=on) > bvh-binned-sah");
+}
+
 TEST(RunRecipe, LevelsAreMadeWhenTheyAreFirstAskedFor) {
     StageCache cache;
     Task task;

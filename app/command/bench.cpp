@@ -22,19 +22,21 @@ public:
         settings_.shading = static_cast<Shading>(shading);
     }
 
-    ReportRow slider(int first_t, int step_count) const {
+    ReportRow slider(int first_t, int step_count, bench::Memory memory) const {
         OsmesaContext context;
         SceneRenderer renderer;
         renderer.set_mesh(scene_->mesh);
         Task task;
         const Progress progress(scene_->title + ": moving the slider of t", task);
         const bench::Times times = bench::time_slider_steps(
-            scene_, recipe_.builder.text(), first_t, step_count,
+            scene_, recipe_.builder.text(), first_t, step_count, memory,
             [&](const Built& built) {
                 renderer.set_boxes(*built.levels, make_box_values(built.levels->list));
             },
             task);
-        ReportRow row = row_of("slider of t to uploaded boxes", recipe_, times);
+        const char* what = memory == bench::Memory::Shared ? "slider of t to uploaded boxes"
+                                                           : "slider of t, every stage run again";
+        ReportRow row = row_of(what, recipe_, times);
         return row.set("t", std::to_string(first_t) + " to " + std::to_string(first_t + step_count - 1));
     }
 
@@ -109,7 +111,8 @@ ExitCode run_bench(Arguments arguments) {
     Report report{"bench interact", scenes, {}, {}};
     const ExitCode result = for_each_scene(scenes, [&](const std::string& spec) {
         Interact interact(spec, recipe, shading);
-        report.rows.push_back(interact.slider(first_t, step_count));
+        report.rows.push_back(interact.slider(first_t, step_count, bench::Memory::Shared));
+        report.rows.push_back(interact.slider(first_t, step_count, bench::Memory::None));
         report.rows.push_back(interact.stops(recipe, stop_count));
         report.rows.push_back(interact.stops(parse_recipe("none"), stop_count));
     });

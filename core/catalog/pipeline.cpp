@@ -1,9 +1,14 @@
 #include "core/catalog/pipeline.h"
 
+#include <array>
+#include <bit>
 #include <cstdio>
 #include <functional>
 #include <utility>
+#include <vector>
 
+#include "core/base/parallel.h"
+#include "core/base/rng.h"
 #include "core/base/timer.h"
 
 namespace boxwood {
@@ -28,10 +33,32 @@ Counts difference(const Counts& after, const Counts& before) {
     return result;
 }
 
-std::string scene_key(const Scene& scene) {
-    char hash[17];
-    std::snprintf(hash, sizeof(hash), "%016llx", static_cast<unsigned long long>(scene.content_hash));
-    return std::string(kVersion) + " " + hash + " ";
+std::string hex(uint64_t hash) {
+    char text[17];
+    std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
+    return text;
+}
+
+/// Of every bit of every reference, in order; the same for any number of threads.
+uint64_t hash_of(std::span<const PrimRef> refs) {
+    constexpr size_t kGrain = 1 << 14;
+    using Words = std::array<uint32_t, 7>;
+    static_assert(sizeof(PrimRef) == sizeof(Words));
+    std::vector<uint64_t> hashes((refs.size() + kGrain - 1) / kGrain);
+    parallel_for(refs.size(), kGrain, [&](size_t begin, size_t end) {
+        uint64_t hash = end - begin;
+        for (const PrimRef& ref : refs.subspan(begin, end - begin)) {
+            const Words w = std::bit_cast<Words>(ref);
+            hash = mix_bits(hash ^ (uint64_t{w[0]} << 32 | w[1]));
+            hash = mix_bits(hash ^ (uint64_t{w[2]} << 32 | w[3]));
+            hash = mix_bits(hash ^ (uint64_t{w[4]} << 32 | w[5]));
+            hash = mix_bits(hash ^ w[6]);
+        }
+        hashes[begin / kGrain] = hash;
+    });
+    uint64_t all = refs.size();
+    for (const uint64_t hash : hashes) all = mix_bits(all + hash);
+    return all;
 }
 
 /// The result under `key`, run if the cache does not have it. Null if the task was stopped.
@@ -99,19 +126,22 @@ uint64_t StageCache::run_count() const {
 std::optional<Built> run_recipe(const Recipe& recipe, std::shared_ptr<const Scene> scene, StageCache& cache,
                                 Task& task, bool with_levels) {
     const Mesh& mesh = scene->mesh;
-    const std::string key = scene_key(*scene);
+    std::string key = std::string(kVersion) + " " + hex(scene->content_hash) + " > ";
     const auto made = run_stage(key + prefix(recipe, 1), cache, task, [&](StageResult& result) {
         result.references = std::make_shared<References>(recipe.references.method().make(mesh, task));
         result.byte_count = result.references->refs.capacity() * sizeof(PrimRef);
+        result.content_hash = hash_of(result.references->refs);
     });
     if (!made) return std::nullopt;
     const std::span<const PrimRef> refs = made->references->refs;
     Counts skipped = made->skipped;
 
+    key += hex(made->content_hash);
     double build_ms = 0.0;
     std::shared_ptr<const StageResult> last;
     for (size_t i = 0; i <= recipe.transforms.size(); ++i) {
-        last = run_stage(key + prefix(recipe, 2 + i), cache, task, [&](StageResult& result) {
+        key += " > " + (i == 0 ? recipe.builder : recipe.transforms[i - 1]).text();
+        last = run_stage(key, cache, task, [&](StageResult& result) {
             result.structure =
                 i == 0 ? recipe.builder.method().build(mesh, refs, task)
                        : recipe.transforms[i - 1].method().apply(mesh, refs, *last->structure, task);
@@ -124,11 +154,10 @@ std::optional<Built> run_recipe(const Recipe& recipe, std::shared_ptr<const Scen
 
     std::shared_ptr<const LevelTable> levels;
     if (with_levels) {
-        const auto listed =
-            run_stage(key + print(recipe) + " > levels", cache, task, [&](StageResult& result) {
-                result.levels = std::make_shared<LevelTable>(make_level_table(last->structure->list_nodes()));
-                result.byte_count = result.levels->byte_count();
-            });
+        const auto listed = run_stage(key + " > levels", cache, task, [&](StageResult& result) {
+            result.levels = std::make_shared<LevelTable>(make_level_table(last->structure->list_nodes()));
+            result.byte_count = result.levels->byte_count();
+        });
         if (!listed) return std::nullopt;
         levels = listed->levels;
     }

@@ -17,13 +17,14 @@ struct StageResult {
     std::shared_ptr<const References> references;  ///< of the references stage
     std::optional<Structure> structure;            ///< of the builder or a transform
     std::shared_ptr<const LevelTable> levels;      ///< of the structure; made when it is first asked for
+    uint64_t content_hash = 0;                     ///< of the references
     double ms = 0.0;
     size_t byte_count = 0;
     std::map<std::string, uint64_t> skipped;
 };
 
-/// Stage results under scene hash and recipe prefix; bounded in bytes, least recently used goes first. A
-/// result that is larger than the bound is not kept. Thread-safe.
+/// Stage results under scene hash and what they are made from; bounded in bytes, least recently used goes
+/// first. A result that is larger than the bound is not kept. Thread-safe.
 class StageCache {
 public:
     explicit StageCache(size_t byte_limit = size_t{2} << 30) : byte_limit_(byte_limit) {}
@@ -61,9 +62,11 @@ struct Built {
     std::map<std::string, uint64_t> skipped;  ///< by all stages, the scene's own not included
 };
 
-/// Runs the stages that `cache` does not hold. Nothing if task.stop was requested before it was done. With
-/// `with_levels` the node list is made too, as a stage of its own. task.done and task.total are those of the
-/// stage that runs.
+/// Runs the stages that `cache` does not hold. References are kept under the scene's hash and their stage's
+/// text, structures under the hash of the references and the texts from the builder on: where another
+/// threshold gives the same references, nothing is built again. Nothing if task.stop was requested before it
+/// was done. With `with_levels` the node list is made too, as a stage of its own. task.done and task.total
+/// are those of the stage that runs.
 std::optional<Built> run_recipe(const Recipe& recipe, std::shared_ptr<const Scene> scene, StageCache& cache,
                                 Task& task, bool with_levels = false);
 
