@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/base/rng.h"
-#include "tests/support/exact_clip.h"
+#include "oracle/polygon.h"
 
 namespace boxwood {
 namespace {
@@ -15,14 +15,15 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// The face must be the float next to the exact extreme: not inside it, less than an ulp outside.
 void expect_smallest_box(const Triangle& triangle, const Box& box) {
-    const std::vector<ExactPoint> part = exact_clip(triangle, box);
+    const std::vector<oracle::ExactPoint> part = oracle::clip(triangle, box);
     const Box result = clip_bounds(triangle, box);
     ASSERT_EQ(result.is_empty(), part.empty());
     if (part.empty()) return;
     for (int axis = 0; axis < 3; ++axis) {
         const size_t k = static_cast<size_t>(axis);
         const auto [least, largest] = std::minmax_element(
-            part.begin(), part.end(), [&](const ExactPoint& a, const ExactPoint& b) { return a[k] < b[k]; });
+            part.begin(), part.end(),
+            [&](const oracle::ExactPoint& a, const oracle::ExactPoint& b) { return a[k] < b[k]; });
         const mpq_class lower = (*least)[k], upper = (*largest)[k];
         const float next = std::nextafter(result.lower[axis], kInfinity);
         const float previous = std::nextafter(result.upper[axis], -kInfinity);

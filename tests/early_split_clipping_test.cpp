@@ -8,7 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/base/rng.h"
 #include "core/refs/subdivision.h"
-#include "tests/support/exact_clip.h"
+#include "oracle/polygon.h"
 
 namespace boxwood {
 namespace {
@@ -52,18 +52,6 @@ uint64_t skipped(const Task& task, const std::string& reason) {
     return found == counts.end() ? 0 : found->second;
 }
 
-/// Twice the area of a planar polygon, as a vector: linear, so that areas of parts add up without error.
-ExactPoint area_vector(const std::vector<ExactPoint>& polygon) {
-    ExactPoint sum;
-    for (size_t i = 1; i + 1 < polygon.size(); ++i)
-        for (size_t k = 0; k < 3; ++k) {
-            const size_t u = (k + 1) % 3, v = (k + 2) % 3;
-            sum[k] += (polygon[i][u] - polygon[0][u]) * (polygon[i + 1][v] - polygon[0][v]) -
-                      (polygon[i][v] - polygon[0][v]) * (polygon[i + 1][u] - polygon[0][u]);
-        }
-    return sum;
-}
-
 /// The boxes of a triangle have disjoint interiors, and the parts of the triangle in them make up all of it:
 /// in exact arithmetic their areas sum to the triangle's. (Where the triangle lies in a plane between two
 /// boxes, a part would count twice; the inputs avoid it.)
@@ -72,11 +60,11 @@ void expect_a_partition(const Mesh& mesh, const std::vector<PrimRef>& refs) {
     for (uint32_t prim = 0; prim < mesh.triangle_count(); ++prim) {
         const Triangle triangle = mesh.triangle(prim);
         const size_t first = next;
-        ExactPoint sum;
+        oracle::ExactPoint sum;
         for (; next < refs.size() && refs[next].prim == prim; ++next) {
             const Box& box = refs[next].bounds;
             ASSERT_TRUE(triangle.bounds().contains(box));
-            const ExactPoint part = area_vector(exact_clip(triangle, box));
+            const oracle::ExactPoint part = oracle::area_vector(oracle::clip(triangle, box));
             for (size_t k = 0; k < 3; ++k) sum[k] += part[k];
             for (size_t other = first; other < next; ++other) {
                 const Box& b = refs[other].bounds;
@@ -85,8 +73,9 @@ void expect_a_partition(const Mesh& mesh, const std::vector<PrimRef>& refs) {
                 ASSERT_TRUE(are_apart) << "primitive " << prim;
             }
         }
-        const ExactPoint whole =
-            area_vector({exact_point(triangle.a), exact_point(triangle.b), exact_point(triangle.c)});
+        const oracle::ExactPoint whole =
+            oracle::area_vector({oracle::exact_point(triangle.a), oracle::exact_point(triangle.b),
+                                 oracle::exact_point(triangle.c)});
         ASSERT_EQ(sum, whole) << "primitive " << prim;
     }
     ASSERT_EQ(next, refs.size());

@@ -13,10 +13,13 @@
 #include "core/refs/subdivision.h"
 #include "core/refs/whole_boxes.h"
 #include "core/scene/load_file.h"
-#include "tests/support/exact_clip.h"
+#include "oracle/polygon.h"
 
 namespace boxwood {
 namespace {
+
+using oracle::exact_point;
+using oracle::ExactPoint;
 
 Mesh make_mesh(const std::vector<Triangle>& triangles) {
     Mesh mesh;
