@@ -12,11 +12,14 @@ namespace boxwood {
 namespace {
 
 constexpr Command kCommands[] = {
+    {"view", "opens the window (also without a command: boxwood SCENE)", run_view},
+    {"shot", "draws the window's frame without a window, as a picture", run_shot},
     {"trace", "renders a picture with the CPU ray tracer", run_trace},
     {"stats", "builds structures and prints what they are made of", run_stats},
     {"verify", "compares the hits of structures with brute force, ray by ray", run_verify},
     {"stress", "casts rays that are hard for floating point, judged by exact arithmetic", run_stress},
     {"cast", "casts the rays of a file", run_cast},
+    {"check", "renders the sessions of a folder and compares them with their pictures", run_check},
     {"bench", "measures how quickly the program answers", run_bench},
     {"scenes", "lists the built-in scenes", run_scenes},
     {"list", "lists the stages of recipes with their parameters", run_list},

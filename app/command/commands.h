@@ -26,11 +26,14 @@ ExitCode run_program(Arguments arguments);
 
 ExitCode run_bench(Arguments arguments);
 ExitCode run_cast(Arguments arguments);
+ExitCode run_check(Arguments arguments);
 ExitCode run_list(Arguments arguments);
 ExitCode run_scenes(Arguments arguments);
+ExitCode run_shot(Arguments arguments);
 ExitCode run_stats(Arguments arguments);
 ExitCode run_stress(Arguments arguments);
 ExitCode run_trace(Arguments arguments);
 ExitCode run_verify(Arguments arguments);
+ExitCode run_view(Arguments arguments);
 
 }  // namespace boxwood

@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "app/viewer/scene_spec.h"
+#include "app/viewer/scene_path.h"
 #include "app/viewer/session_fields.h"
 #include "core/base/error.h"
+#include "core/base/file.h"
 #include "core/render/png.h"
 #include "core/scene/scene.h"
 
@@ -68,13 +67,14 @@ public:
     void scene(const char* key, std::string& value, const std::string& default_value) {
         text(key, value, default_value);
         if (is_built_in(value)) return;
-        const auto [path, suffix] = split_spec(value);
-        if (path.empty()) fail(key, "a scene's name", "an empty text");
-        if (std::filesystem::path(path).is_absolute()) {
+        if (value.empty()) fail(key, "a scene's name", "an empty text");
+        const std::filesystem::path path(value);
+        if (path.is_absolute()) {
             refuse(where_, std::string("\"") + key + "\": expected a file relative to the session, got the " +
-                               "absolute path \"" + path + "\"");
+                               "absolute path \"" + value + "\"");
         }
-        value = (std::filesystem::path(folder_) / path).lexically_normal().string() + suffix;
+        value = (std::filesystem::path(folder_) / path).lexically_normal().string();
+        if (is_built_in(value)) value = "./" + value;
     }
     void text(const char* key, std::string& value, const std::string&) {
         const std::optional<Json> json = take(key);
@@ -355,7 +355,7 @@ std::string session_folder(const std::string& path) {
 }
 
 std::optional<Session> load_session(const std::string& path) {
-    if (is_built_in(path) || !std::filesystem::is_regular_file(split_spec(path).first)) return std::nullopt;
+    if (is_built_in(path) || !std::filesystem::is_regular_file(scene_file(path))) return std::nullopt;
     std::ifstream file(path, std::ios::binary);
     std::array<char, 8> start{};
     file.read(start.data(), start.size());
@@ -371,14 +371,7 @@ std::optional<Session> load_session(const std::string& path) {
 }
 
 void save_session(const Session& session, const std::string& path) {
-    const std::string text = print_session(session, session_folder(path));
-    const std::string part = path + ".part";
-    std::ofstream file(part, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file || std::rename(part.c_str(), path.c_str()) != 0) {
-        refuse(path, std::string("cannot be written: ") + std::strerror(errno));
-    }
+    write_file_atomically(path, print_session(session, session_folder(path)));
 }
 
 }  // namespace boxwood

@@ -42,7 +42,7 @@ std::string print_session(const Session& session, const std::string& folder);
 /// makes it a scene. Throws Error (BadInput) where the file or the session cannot be read.
 std::optional<Session> load_session(const std::string& path);
 
-/// Writes beside and renames, so that a killed run leaves the old file whole. Throws Error (BadInput).
+/// Throws Error (WrongUsage) where the file cannot be written; see write_file_atomically.
 void save_session(const Session& session, const std::string& path);
 
 /// The folder part of a path: "." if there is none.

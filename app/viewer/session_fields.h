@@ -44,6 +44,7 @@ void describe_session(Visitor& v, Session& session, const Session& defaults) {
     v.number("scale", s.interface_scale, d.interface_scale, 0.5f, 4.0f);
     v.size("size", s.width, s.height, d.width, d.height);
     v.flag("panels", s.show_panels, d.show_panels);
+    v.flag("times", s.show_times, d.show_times);
     v.flag("keys", s.show_keys, d.show_keys);
     v.limits("check", session.limits, defaults.limits);
 }

@@ -71,6 +71,7 @@ struct ViewerState {
     int width = 1280;              ///< of the frame, in pixels, 16 to 8192
     int height = 720;
     bool show_panels = true;
+    bool show_times = true;  ///< measured times and rates; without, the frame is the same on every machine
     bool show_keys = false;  ///< the list of all keys over the picture
 
     bool operator==(const ViewerState&) const = default;

@@ -1,0 +1,112 @@
+#include "app/viewer/build_job.h"
+
+#include <new>
+#include <utility>
+
+namespace boxwood {
+
+BuildJob::BuildJob(std::shared_ptr<StageCache> cache) : cache_(std::move(cache)) {
+    thread_ = std::jthread([this](const std::stop_token& quit) { work(quit); });
+}
+
+BuildJob::~BuildJob() {
+    cancel();
+    thread_.request_stop();
+    wake_.notify_all();
+}
+
+void BuildJob::request(BuildRequest request) {
+    {
+        const std::scoped_lock lock(mutex_);
+        stop_.request_stop();
+        waiting_ = std::move(request);
+        finished_.reset();
+        since_ = Timer();
+    }
+    wake_.notify_all();
+}
+
+void BuildJob::cancel() {
+    const std::scoped_lock lock(mutex_);
+    stop_.request_stop();
+    waiting_.reset();
+    finished_.reset();
+}
+
+std::optional<BuildResult> BuildJob::take() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(finished_, std::nullopt);
+}
+
+BuildProgress BuildJob::progress() const {
+    const std::scoped_lock lock(mutex_);
+    BuildProgress progress;
+    progress.running = task_ != nullptr || waiting_.has_value();
+    if (!progress.running) return progress;
+    progress.sentence = task_ && !task_->stopped() ? sentence_ : "starting";
+    progress.ms = since_.milliseconds();
+    const uint64_t done = task_ ? task_->done.load() : 0, total = task_ ? task_->total.load() : 0;
+    if (total > 0) progress.share = static_cast<double>(std::min(done, total)) / static_cast<double>(total);
+    return progress;
+}
+
+void BuildJob::wait() const {
+    std::unique_lock lock(mutex_);
+    idle_.wait(lock, [this] { return !task_ && !waiting_; });
+}
+
+void BuildJob::say(const std::string& sentence) {
+    const std::scoped_lock lock(mutex_);
+    sentence_ = sentence;
+}
+
+void BuildJob::work(const std::stop_token& quit) {
+    std::unique_lock lock(mutex_);
+    while (wake_.wait(lock, quit, [this] { return waiting_.has_value(); })) {
+        const BuildRequest request = *std::exchange(waiting_, std::nullopt);
+        stop_ = std::stop_source();
+        const auto task = std::make_shared<Task>(stop_.get_token());
+        task_ = task;
+        lock.unlock();
+        BuildResult result = run(request, *task);
+        lock.lock();
+        task_.reset();
+        if (!task->stopped()) {
+            result.ms = since_.milliseconds();
+            finished_ = std::move(result);
+        }
+        idle_.notify_all();
+    }
+}
+
+BuildResult BuildJob::run(const BuildRequest& request, Task& task) {
+    BuildResult result;
+    result.request = request;
+    try {
+        if (!scene_ || scene_spec_ != request.scene || request.reload) {
+            say("opening " + request.scene);
+            std::shared_ptr<const Scene> scene = open_scene(request.scene, task);
+            if (task.stopped()) return result;
+            scene_ = std::move(scene);
+            scene_spec_ = request.scene;
+        }
+        result.scene = scene_;
+        if (!request.structure || task.stopped()) return result;
+        const Recipe recipe = parse_recipe(request.recipe);
+        say("building " + print(recipe));
+        std::optional<Built> built = run_recipe(recipe, scene_, *cache_, task, /*with_levels=*/true);
+        if (!built) return result;
+        result.values = std::make_shared<BoxValues>(make_box_values(built->levels->list));
+        result.tree = std::make_shared<TreeStats>(tree_stats(*built->levels));
+        result.built = std::make_shared<Built>(std::move(*built));
+    } catch (const Error& error) {
+        result.error = error.what();
+        result.exit_code = error.exit_code();
+    } catch (const std::bad_alloc&) {
+        result.error = "not enough memory for " + request.recipe + " on " + request.scene;
+        result.exit_code = ExitCode::BadInput;
+    }
+    return result;
+}
+
+}  // namespace boxwood

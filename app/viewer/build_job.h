@@ -1,0 +1,89 @@
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "app/viewer/box_values.h"
+#include "core/base/error.h"
+#include "core/base/timer.h"
+#include "core/catalog/pipeline.h"
+#include "core/measure/tree_stats.h"
+
+namespace boxwood {
+
+/// What the window wants to show.
+struct BuildRequest {
+    std::string scene;
+    std::string recipe;
+    bool structure = true;  ///< false: nothing shows references or structure, so only the scene is opened
+    bool reload = false;    ///< open the scene again even if it is the one that is open
+
+    bool operator==(const BuildRequest&) const = default;
+};
+
+/// A whole answer, or why there is none.
+struct BuildResult {
+    BuildRequest request;
+    std::shared_ptr<const Scene> scene;       ///< null: it could not be opened, see error
+    std::shared_ptr<const Built> built;       ///< with levels; null: not asked for, or see error
+    std::shared_ptr<const BoxValues> values;  ///< of built->levels
+    std::shared_ptr<const TreeStats> tree;    ///< of built->levels
+    std::string error;                        ///< a sentence; empty: all is well
+    ExitCode exit_code = ExitCode::Done;      ///< of the error
+    double ms = 0.0;                          ///< from the request to here
+};
+
+/// What the job does now.
+struct BuildProgress {
+    bool running = false;
+    std::string sentence;  ///< "building evh(t=14) > bvh-sweep-sah"
+    double share = -1.0;   ///< of the stage that runs, 0 to 1; below 0: not known
+    double ms = 0.0;       ///< since the request
+};
+
+/// Opens scenes and runs recipes in a thread of its own. Of several requests only the newest is answered: one
+/// that runs is stopped, one that waits is dropped. Called from one thread.
+class BuildJob {
+public:
+    explicit BuildJob(std::shared_ptr<StageCache> cache);
+    ~BuildJob();
+    BuildJob(const BuildJob&) = delete;
+    BuildJob& operator=(const BuildJob&) = delete;
+
+    void request(BuildRequest request);
+    /// Stops what runs and drops what waits; there is no result.
+    void cancel();
+    /// The answer to the newest request, once.
+    std::optional<BuildResult> take();
+    BuildProgress progress() const;
+    /// Returns when nothing runs or waits.
+    void wait() const;
+
+    const StageCache& cache() const { return *cache_; }
+
+private:
+    void work(const std::stop_token& quit);
+    BuildResult run(const BuildRequest& request, Task& task);
+    void say(const std::string& sentence);
+
+    std::shared_ptr<StageCache> cache_;
+    std::shared_ptr<const Scene> scene_;  ///< the last one that was opened; only the thread touches it
+    std::string scene_spec_;              ///< as it was asked for
+
+    mutable std::mutex mutex_;
+    std::condition_variable_any wake_;
+    mutable std::condition_variable_any idle_;
+    std::optional<BuildRequest> waiting_;
+    std::stop_source stop_;       ///< of what runs
+    std::shared_ptr<Task> task_;  ///< null: nothing runs
+    std::string sentence_;
+    Timer since_;
+    std::optional<BuildResult> finished_;
+    std::jthread thread_;  ///< last: it is joined first
+};
+
+}  // namespace boxwood

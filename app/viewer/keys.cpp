@@ -1,0 +1,159 @@
+#include "app/viewer/keys.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+
+#include "app/viewer/ui_context.h"
+
+namespace boxwood {
+namespace {
+
+constexpr std::array<KeyHelp, 35> kHelp{{
+    {"Camera", "left drag", "orbit"},
+    {"Camera", "middle drag", "pan"},
+    {"Camera", "wheel", "zoom to the pointer"},
+    {"Camera", "right drag", "look around"},
+    {"Camera", "right + W A S D", "fly; E up, Q down"},
+    {"Camera", "Shift, Alt", "fly ten times faster, slower"},
+    {"Camera", "F, double click", "focus the point under the pointer"},
+    {"Camera", "Home", "whole scene"},
+    {"Camera", "X Y Z", "along an axis; Shift: from behind"},
+    {"Camera", "1 ... 9", "recall a view; Ctrl: store it"},
+    {"Camera", "O", "orthographic"},
+    {"Camera", "U", "next up axis"},
+    {"Show", "B", "boxes"},
+    {"Show", "M", "mesh"},
+    {"Show", "W", "wire"},
+    {"Show", "R", "subdivided triangles in red"},
+    {"Show", "P", "boxes of the pieces"},
+    {"Show", "K", "boxes see-through"},
+    {"Show", "T", "ray-traced view: beside, over, off"},
+    {"Show", "H", "heat map"},
+    {"Show", "Tab", "panels"},
+    {"Show", "?", "this list"},
+    {"Levels", "[  ]", "level range up, down the tree"},
+    {"Levels", "Shift + [  ]", "its last level alone"},
+    {"Levels", "L", "leaves above the range"},
+    {"Session", "Ctrl + O", "open a scene, session or picture"},
+    {"Session", "Ctrl + S", "save the session"},
+    {"Session", "Ctrl + C", "copy the session as text"},
+    {"Session", "Ctrl + V", "paste it"},
+    {"Session", "Ctrl + Z", "undo a setting"},
+    {"Session", "Ctrl + Shift + Z", "redo it"},
+    {"Session", "drop a file", "open it"},
+    {"Session", "Esc", "cancel a build; close what is open"},
+    {"Panels", "Ctrl + click", "type a slider's value"},
+    {"Panels", "right click", "put a changed value back"},
+}};
+
+bool pressed(int key) { return ImGui::IsKeyPressed(key, /*repeat=*/false); }
+
+void handle_commands(std::vector<Action>& actions, PanelMemory& memory) {
+    const bool shift = ImGui::GetIO().KeyShift;
+    if (pressed('O')) memory.ask_open = true;
+    if (pressed('S')) memory.ask_save = true;
+    if (pressed('C')) actions.push_back(CopySession{});
+    if (pressed('V')) actions.push_back(PasteSession{});
+    if (ImGui::IsKeyPressed('Z')) actions.push_back(shift ? Action(RedoStep{}) : Action(UndoStep{}));
+    for (int i = 0; i < 9; ++i) {
+        if (pressed('1' + i)) actions.push_back(StoreView{i});
+    }
+}
+
+void toggle(bool& value, int key) {
+    if (pressed(key)) value = !value;
+}
+
+void handle_toggles(ViewerState& state) {
+    toggle(state.show_boxes, 'B');
+    toggle(state.show_mesh, 'M');
+    toggle(state.show_wire, 'W');
+    toggle(state.show_red, 'R');
+    toggle(state.show_reference_boxes, 'P');
+    toggle(state.see_through, 'K');
+    toggle(state.leaves_above, 'L');
+    toggle(state.show_panels, key::kTab);
+    if (pressed('T')) {
+        state.traced = state.traced == TracedView::Off      ? TracedView::Beside
+                       : state.traced == TracedView::Beside ? TracedView::Over
+                                                            : TracedView::Off;
+    }
+    if (pressed('H')) {
+        const bool on = state.traced != TracedView::Off && is_heat(state.shading);
+        if (state.traced == TracedView::Off) state.traced = TracedView::Beside;
+        state.shading = on ? Shading::Primary : Shading::Heat;
+    }
+}
+
+void handle_views(ViewerState& state, const PanelInput& input, const Camera& camera,
+                  std::vector<Action>& actions) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const Box box = input.scene != nullptr ? input.scene->mesh.bounds() : Box{};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (pressed('X' + axis)) {
+            state.camera = axis_view(camera, box, axis, io.KeyShift, up_vector(state.up_axis));
+        }
+    }
+    if (pressed(key::kHome)) state.camera.reset();
+    if (pressed('F')) actions.push_back(FocusPoint{Vec2(io.MousePos.x, io.MousePos.y)});
+    if (pressed('O')) {
+        state.camera = camera;
+        state.camera->orthographic = !camera.orthographic;
+    }
+    if (pressed('U')) {
+        state.up_axis = static_cast<UpAxis>((static_cast<int>(state.up_axis) + 1) % 3);
+        if (state.camera) state.camera->up = up_vector(state.up_axis);
+    }
+    for (size_t i = 0; i < state.stored_views.size(); ++i) {
+        if (pressed('1' + static_cast<int>(i)) && state.stored_views[i]) state.camera = state.stored_views[i];
+    }
+}
+
+/// Signs that stand on different keys of different keyboards come as characters.
+void handle_characters(ViewerState& state, const PanelInput& input) {
+    const int deepest =
+        input.built != nullptr ? std::max(static_cast<int>(input.built->levels->level_count()) - 1, 0) : 0;
+    for (const ImWchar c : ImGui::GetIO().InputQueueCharacters) {
+        if (c == '?') state.show_keys = !state.show_keys;
+        if (c == '[' || c == ']') state.levels = moved(state.levels, c == ']' ? 1 : -1, false, deepest);
+        if (c == '{' || c == '}') state.levels = moved(state.levels, c == '}' ? 1 : -1, true, deepest);
+    }
+}
+
+}  // namespace
+
+std::span<const KeyHelp> key_help() { return kHelp; }
+
+LevelRange moved(const LevelRange& range, int step, bool one_handle, int deepest) {
+    const int first = std::min(range.first, deepest), last = std::min(range.last, deepest);
+    if (one_handle) return {first, std::clamp(last + step, first, deepest)};
+    const int shift = std::clamp(step, -first, deepest - last);
+    return {first + shift, last + shift};
+}
+
+void handle_keys(ViewerState& state, const PanelInput& input, PanelMemory& memory, const Camera& camera,
+                 bool flying, std::vector<Action>& actions) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.WantTextInput) return;
+    if (pressed(key::kEscape)) {
+        if (state.show_keys) {
+            state.show_keys = false;
+        } else if (input.progress.running) {
+            actions.push_back(CancelWork{});
+        } else if (!input.message.empty()) {
+            actions.push_back(DismissMessage{});
+        }
+    }
+    if (io.KeyCtrl) {
+        handle_commands(actions, memory);
+        return;
+    }
+    if (flying || io.KeyAlt) return;
+    handle_toggles(state);
+    handle_views(state, input, camera, actions);
+    handle_characters(state, input);
+}
+
+}  // namespace boxwood

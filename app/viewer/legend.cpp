@@ -1,0 +1,157 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/viewer/number_text.h"
+#include "app/viewer/panel_parts.h"
+
+namespace boxwood::panel {
+namespace {
+
+constexpr ImGuiWindowFlags kFloating = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                       ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                                       ImGuiWindowFlags_NoInputs;
+
+/// One legend: a strip of colours with the values at its ends and a mark.
+struct Legend {
+    std::string title, lower, middle, upper;
+    bool discrete = false;
+    int steps = 64;
+    std::optional<float> mark;  ///< position in [0, 1]
+    std::string pointed;        ///< what lies under the pointer, in words
+};
+
+template <class Color>
+void strip(const Context& context, const Legend& legend, const Color& color) {
+    const float width = 200.0f * context.scale, height = 12.0f * context.scale;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const int count = legend.steps;
+    for (int i = 0; i < count; ++i) {
+        const float x0 = corner.x + width * static_cast<float>(i) / static_cast<float>(count);
+        const float x1 = corner.x + width * static_cast<float>(i + 1) / static_cast<float>(count);
+        const float at = legend.discrete ? static_cast<float>(i) / static_cast<float>(std::max(count - 1, 1))
+                                         : (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
+        draw.AddRectFilled({x0, corner.y}, {x1, corner.y + height}, im_packed(color(at)));
+    }
+    if (legend.mark) {
+        const float inset = legend.discrete ? 0.5f * width / static_cast<float>(count) : 0.0f;
+        const float x = corner.x + inset + (width - 2.0f * inset) * *legend.mark;
+        const float size = 4.0f * context.scale;
+        draw.AddTriangleFilled({x - size, corner.y - size}, {x + size, corner.y - size}, {x, corner.y + size},
+                               im_packed(context.colors.text));
+    }
+    ImGui::Dummy({width, height});
+    const float left = ImGui::GetCursorPosX();
+    colored(context.colors.dim, legend.lower);
+    const auto place = [&](const std::string& text, float share) {
+        if (text.empty()) return;
+        ImGui::SameLine(left + share * (width - ImGui::CalcTextSize(text.c_str()).x));
+        colored(context.colors.dim, text);
+    };
+    place(legend.middle, 0.5f);
+    place(legend.upper, 1.0f);
+}
+
+template <class Color>
+void legend_window(const Context& context, const char* name, const ViewRect& view, const Legend& legend,
+                   const Color& color) {
+    const float margin = 8.0f * context.scale;
+    ImGui::SetNextWindowPos({view.x + margin, view.y + view.height - margin}, ImGuiCond_Always, {0.0f, 1.0f});
+    ImGui::SetNextWindowBgAlpha(0.82f);
+    ImGui::Begin(name, nullptr, kFloating);
+    ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
+    ImGui::TextUnformatted(legend.title.c_str());
+    strip(context, legend, color);
+    if (!legend.pointed.empty()) ImGui::TextUnformatted(legend.pointed.c_str());
+    ImGui::PopFont();
+    ImGui::End();
+}
+
+Legend box_legend(const Context& context) {
+    const ColorScale& colors = context.input.scale;
+    const ValueScale& scale = colors.scale;
+    Legend legend;
+    const double lower = scale.lower, upper = scale.upper;
+    const std::optional<Pointed>& pointed = context.input.pointed;
+    const bool has_node = pointed && pointed->node != kNoIndex;
+    double value = 0.0;
+    if (colors.meaning == BoxColor::Level) {
+        legend.title = "level of a box";
+        legend.lower = number_text(lower), legend.upper = number_text(upper);
+        legend.steps = std::clamp(static_cast<int>(upper - lower) + 1, 1, 64);
+        legend.discrete = upper - lower < 64.0;
+        if (has_node) value = static_cast<double>(pointed->level);
+    } else if (colors.meaning == BoxColor::Primitives) {
+        legend.title = "references below a box, logarithmic";
+        legend.lower = grouped(static_cast<uint64_t>(lower)),
+        legend.upper = grouped(static_cast<uint64_t>(upper));
+        legend.middle = number_text(scale.value(0.5), 3);
+        if (has_node) value = pointed->references;
+    } else {
+        legend.title = "a box's own share of the SAH cost, logarithmic";
+        legend.lower = number_text(100.0 * lower, 2) + " %",
+        legend.upper = number_text(100.0 * upper, 3) + " %";
+        legend.middle = number_text(100.0 * scale.value(0.5), 2) + " %";
+        if (has_node) value = pointed->sah_share;
+    }
+    if (has_node) {
+        legend.mark = scale.position(value);
+        legend.pointed = std::string(pointed->leaf ? "leaf" : "node") + " at level " +
+                         std::to_string(pointed->level) + ": " +
+                         grouped(static_cast<uint64_t>(pointed->references)) + " references, " +
+                         number_text(100.0 * pointed->sah_share, 2) + " % of cost";
+    }
+    return legend;
+}
+
+Legend heat_legend(const Context& context) {
+    const HeatScale& heat = context.input.trace.heat;
+    const bool nodes = context.state.shading == Shading::Heat;
+    Legend legend;
+    legend.title = std::string(nodes ? "nodes visited" : "triangles tested") + " by a primary ray" +
+                   (heat.scale.logarithmic ? ", logarithmic" : "");
+    legend.lower = number_text(heat.scale.lower, 3);
+    legend.middle = number_text(heat.scale.value(0.5), 3);
+    const bool beyond = heat.largest > heat.scale.upper;
+    legend.upper =
+        number_text(heat.scale.upper, 4) + (beyond ? " (most " + number_text(heat.largest, 4) + ")" : "");
+    if (const std::optional<PixelValue>& pixel = context.input.pixel) {
+        const uint64_t value = nodes ? pixel->count.nodes : pixel->count.tests;
+        legend.mark = heat.scale.position(static_cast<double>(value));
+        legend.pointed = "this pixel: " + grouped(pixel->count.nodes) + " nodes, " +
+                         grouped(pixel->count.tests) + " tests";
+    }
+    return legend;
+}
+
+Vec3 srgb_of(const Vec3& linear) {
+    return Vec3(static_cast<float>(srgb_byte(linear.x)), static_cast<float>(srgb_byte(linear.y)),
+                static_cast<float>(srgb_byte(linear.z))) /
+           255.0f;
+}
+
+}  // namespace
+
+void legends(const Context& context) {
+    const ViewerState& state = context.state;
+    if (state.show_boxes && context.input.built != nullptr) {
+        const ColorScale& scale = context.input.scale;
+        legend_window(context, "box legend", context.layout.scene, box_legend(context), [&](float x) {
+            const float last = static_cast<float>(scale.palette.size() - 1);
+            const float at = std::clamp(x, 0.0f, 1.0f) * last;
+            const size_t i = std::min(static_cast<size_t>(at), scale.palette.size() - 2);
+            return srgb_of(glm::mix(scale.palette[i], scale.palette[i + 1], at - static_cast<float>(i)));
+        });
+    }
+    if (state.traced != TracedView::Off && is_heat(state.shading) && context.input.trace.step > 0) {
+        ViewRect place = context.layout.traced;
+        if (state.traced == TracedView::Over && state.show_boxes) place.height -= 72.0f * context.scale;
+        legend_window(context, "heat legend", place, heat_legend(context),
+                      [&](float x) { return map_srgb(state.color_map, x); });
+    }
+}
+
+}  // namespace boxwood::panel

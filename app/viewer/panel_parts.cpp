@@ -1,0 +1,77 @@
+#include "app/viewer/panel_parts.h"
+
+#include <imgui.h>
+
+namespace boxwood::panel {
+
+void tooltip(const Context& context, const std::string& text) {
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(320.0f * context.scale);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void heading(const Context& context, const char* title, const std::string& right_note) {
+    ImGui::Dummy({0.0f, 2.0f * context.scale});
+    ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[2]);
+    ImGui::TextUnformatted(title);
+    ImGui::PopFont();
+    if (!right_note.empty()) {
+        const float width = ImGui::CalcTextSize(right_note.c_str()).x;
+        ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+        colored(context.colors.dim, right_note);
+    }
+    ImGui::Separator();
+}
+
+void note(const Context& context, const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, im_color(context.colors.dim));
+    ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopFont();
+    ImGui::PopStyleColor();
+}
+
+void colored(const Vec4& color, const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, im_color(color));
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+}
+
+void value_row(const Context& context, const char* name, const std::string& value, const std::string& tip) {
+    ImGui::BeginGroup();
+    colored(context.colors.dim, name);
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x);
+    ImGui::TextUnformatted(value.c_str());
+    ImGui::EndGroup();
+    tooltip(context, tip);
+}
+
+bool put_back() { return ImGui::IsItemClicked(ImGuiMouseButton_Right); }
+
+void toggle(const Context& context, const char* label, bool& value, bool default_value, const char* tip) {
+    const bool changed = value != default_value;
+    if (changed) ImGui::PushStyleColor(ImGuiCol_Text, im_color(context.colors.changed));
+    ImGui::Checkbox(label, &value);
+    if (changed) ImGui::PopStyleColor();
+    if (put_back()) value = default_value;
+    tooltip(context, std::string(tip) + (changed ? "\nChanged; right click puts it back." : ""));
+}
+
+bool choice(const Context& context, const char* label, int& value, int default_value,
+            std::span<const char* const> names, const char* tip) {
+    const bool changed = value != default_value;
+    if (changed) ImGui::PushStyleColor(ImGuiCol_Text, im_color(context.colors.changed));
+    const int old = value;
+    ImGui::Combo(label, &value, names.data(), static_cast<int>(names.size()));
+    if (changed) ImGui::PopStyleColor();
+    if (put_back()) value = default_value;
+    tooltip(context, std::string(tip) + (changed ? "\nChanged; right click puts it back." : ""));
+    return value != old;
+}
+
+}  // namespace boxwood::panel

@@ -1,0 +1,163 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+
+#include "app/viewer/number_text.h"
+#include "app/viewer/panel_parts.h"
+
+namespace boxwood::panel {
+namespace {
+
+const ViewerState kDefault{};
+
+int deepest_level(const PanelInput& input) {
+    return input.built != nullptr ? std::max(static_cast<int>(input.built->levels->level_count()) - 1, 0) : 0;
+}
+
+std::string level_text(const LevelRange& range, int deepest) {
+    const int first = std::min(range.first, deepest), last = std::min(range.last, deepest);
+    if (first == last) return "level " + std::to_string(first) + " of " + std::to_string(deepest);
+    return "levels " + std::to_string(first) + " to " + std::to_string(last) + " of " +
+           std::to_string(deepest);
+}
+
+void two_columns(const Context& context) { ImGui::SameLine(138.0f * context.scale); }
+
+void labelled_choice(const Context& context, const char* label, int& value, int default_value,
+                     std::span<const char* const> names, const char* tip) {
+    ImGui::AlignTextToFramePadding();
+    colored(value != default_value ? context.colors.changed : context.colors.dim, label);
+    ImGui::SameLine(104.0f * context.scale);
+    ImGui::SetNextItemWidth(-1.0f);
+    ImGui::PushID(label);
+    choice(context, "##choice", value, default_value, names, tip);
+    ImGui::PopID();
+}
+
+template <class Enum>
+void enum_choice(const Context& context, const char* label, Enum& value, Enum default_value,
+                 std::span<const char* const> names, const char* tip) {
+    int index = static_cast<int>(value);
+    labelled_choice(context, label, index, static_cast<int>(default_value), names, tip);
+    value = static_cast<Enum>(index);
+}
+
+constexpr std::array<const char*, 3> kColors{"level", "primitives below", "share of SAH cost"};
+constexpr std::array<const char*, 3> kTraced{"off", "beside", "over the mesh"};
+constexpr std::array<const char*, 5> kShadings{"primary", "normals", "ambient occlusion", "heat: nodes",
+                                               "heat: tests"};
+constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+
+}  // namespace
+
+void view_part(const Context& context) {
+    ViewerState& s = context.state;
+    const int deepest = deepest_level(context.input);
+    heading(context, "Levels", level_text(s.levels, deepest));
+    level_slider(context, s.levels, deepest);
+    toggle(context, "leaves above", s.leaves_above, kDefault.leaves_above,
+           "Leaves above the first level are drawn too (L), so that the picture is whole where the tree is "
+           "uneven.");
+    two_columns(context);
+    toggle(context, "see-through", s.see_through, kDefault.see_through,
+           "Boxes are seen through what is in front of them (K); otherwise hidden lines are not drawn.");
+    toggle(context, "boxes", s.show_boxes, kDefault.show_boxes, "Boxes of the nodes of the level range (B).");
+    two_columns(context);
+    toggle(context, "boxes of pieces", s.show_reference_boxes, kDefault.show_reference_boxes,
+           "The reference boxes of subdivided triangles, coloured by the triangle they belong to (P).");
+    toggle(context, "mesh", s.show_mesh, kDefault.show_mesh, "The surface (M).");
+    two_columns(context);
+    toggle(context, "wire", s.show_wire, kDefault.show_wire, "The edges of the triangles (W).");
+    toggle(context, "red pieces", s.show_red, kDefault.show_red,
+           "Triangles with more than one reference in red (R).");
+    two_columns(context);
+    bool orthographic = context.input.camera.orthographic;
+    toggle(context, "orthographic", orthographic, false, "Parallel instead of perspective projection (O).");
+    if (orthographic != context.input.camera.orthographic) {
+        s.camera = context.input.camera;
+        s.camera->orthographic = orthographic;
+    }
+    enum_choice(
+        context, "box colour", s.box_color, kDefault.box_color, kColors,
+        "What the colour of a box says: its level, the references below it, or its own share of the SAH "
+        "cost (half area x visits or tests).");
+    enum_choice(context, "colour map", s.color_map, kDefault.color_map, kColorMapNames,
+                "Perceptual colour maps that colour-blind eyes read too: for boxes and the heat map.");
+    const UpAxis old_axis = s.up_axis;
+    enum_choice(context, "up axis", s.up_axis, kDefault.up_axis, kAxes, "Axis that points up (U).");
+    if (s.up_axis != old_axis && s.camera) s.camera->up = up_vector(s.up_axis);
+}
+
+void trace_part(const Context& context) {
+    ViewerState& s = context.state;
+    const TraceState& trace = context.input.trace;
+    std::string done;
+    if (s.traced != TracedView::Off) {
+        done = trace.converged ? "converged" : percent_text(trace.progress, 1.0);
+    }
+    heading(context, "Ray-traced view", done);
+    enum_choice(context, "where", s.traced, kDefault.traced, kTraced,
+                "The live CPU ray-traced picture, same camera (T).");
+    if (s.traced == TracedView::Off) return;
+    enum_choice(context, "shading", s.shading, kDefault.shading, kShadings,
+                "What a pixel shows; a heat map (H) counts the nodes visited or the primitives tested by its "
+                "primary ray.");
+    if (is_heat(s.shading)) {
+        toggle(context, "logarithmic", s.log_heat, kDefault.log_heat, "Logarithmic scale of the heat map.");
+        two_columns(context);
+        ImGui::SetNextItemWidth(-1.0f);
+        ImGui::DragFloat("##max", &s.heat_max, 1.0f, 0.0f, 1e6f,
+                         s.heat_max > 0.0f ? "up to %.0f" : "scale: automatic", ImGuiSliderFlags_AlwaysClamp);
+        if (put_back()) s.heat_max = 0.0f;
+        tooltip(context,
+                "Upper end of the heat scale; 0: from the picture. A fixed end makes two pictures "
+                "comparable. Right click: automatic.");
+    }
+    constexpr std::array<const char*, 2> kModes{"exact", "fast"};
+    enum_choice(
+        context, "intersection", s.mode, kDefault.mode, kModes,
+        "exact: the answer of exact arithmetic; fast: float arithmetic, wrong only at edges and ties.");
+}
+
+void session_part(const Context& context) {
+    ViewerState& s = context.state;
+    heading(context, "Session");
+    if (ImGui::Button("Save...")) context.memory.ask_save = true;
+    tooltip(context, "Ctrl+S: writes a session file; every picture carries its session too.");
+    ImGui::SameLine();
+    if (ImGui::Button("Copy")) context.actions.push_back(CopySession{});
+    tooltip(context, "Ctrl+C: the session as text. Ctrl+V pastes one.");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(context.input.undo_count == 0);
+    if (ImGui::Button("Undo")) context.actions.push_back(UndoStep{});
+    ImGui::EndDisabled();
+    tooltip(context, "Ctrl+Z: one setting back, " + grouped(context.input.undo_count) + " steps to go.");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(context.input.redo_count == 0);
+    if (ImGui::Button("Redo")) context.actions.push_back(RedoStep{});
+    ImGui::EndDisabled();
+    tooltip(context, "Ctrl+Shift+Z: one setting forward again.");
+    ImGui::SameLine();
+    if (ImGui::Button("Keys")) s.show_keys = !s.show_keys;
+    tooltip(context, "?: all keys.");
+    constexpr std::array<const char*, 2> kThemes{"dark", "light"};
+    enum_choice(context, "theme", s.theme, kDefault.theme, kThemes, "Colours of the interface.");
+    ImGui::AlignTextToFramePadding();
+    colored(s.interface_scale != 1.0f ? context.colors.changed : context.colors.dim, "scale");
+    ImGui::SameLine(104.0f * context.scale);
+    ImGui::SetNextItemWidth(-1.0f);
+    constexpr std::array<const char*, 7> kScales{"75 %",  "100 %", "125 %", "150 %",
+                                                 "200 %", "250 %", "300 %"};
+    constexpr std::array<float, 7> kFactors{0.75f, 1.0f, 1.25f, 1.5f, 2.0f, 2.5f, 3.0f};
+    if (ImGui::BeginCombo("##scale", percent_text(static_cast<double>(s.interface_scale), 1.0).c_str())) {
+        for (size_t i = 0; i < kScales.size(); ++i) {
+            if (ImGui::Selectable(kScales[i], s.interface_scale == kFactors[i]))
+                s.interface_scale = kFactors[i];
+        }
+        ImGui::EndCombo();
+    }
+    tooltip(context, "Scale of the interface.");
+}
+
+}  // namespace boxwood::panel

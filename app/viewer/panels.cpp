@@ -1,0 +1,58 @@
+#include "app/viewer/panels.h"
+
+#include <imgui.h>
+
+#include "app/viewer/panel_parts.h"
+
+namespace boxwood {
+namespace {
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                    ImGuiWindowFlags_NoNavInputs;
+
+void begin_fixed(const char* name, const ViewRect& rect) {
+    ImGui::SetNextWindowPos({rect.x, rect.y});
+    ImGui::SetNextWindowSize({rect.width, rect.height});
+    ImGui::Begin(name, nullptr, kFixed);
+}
+
+void left_panel(const panel::Context& context) {
+    begin_fixed("left", context.layout.left);
+    panel::scene_part(context);
+    panel::recipe_part(context);
+    panel::view_part(context);
+    panel::trace_part(context);
+    panel::session_part(context);
+    ImGui::End();
+}
+
+void right_panel(const panel::Context& context) {
+    begin_fixed("right", context.layout.right);
+    panel::measures_part(context);
+    panel::level_table_part(context);
+    ImGui::End();
+}
+
+}  // namespace
+
+std::vector<Action> edit(ViewerState& state, const PanelInput& input, const FrameLayout& layout,
+                         PanelMemory& memory) {
+    std::vector<Action> actions;
+    const panel::Context context{
+        state, input, layout, memory, actions, theme_colors(state.theme), state.interface_scale};
+    if (layout.left.width > 0.0f) {
+        left_panel(context);
+        right_panel(context);
+        panel::status_line(context);
+        panel::legends(context);
+    }
+    panel::message_line(context);
+    panel::work_line(context);
+    if (state.show_keys) panel::key_list(context);
+    panel::dialogs(context);
+    return actions;
+}
+
+}  // namespace boxwood

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/viewer/action.h"
+#include "app/viewer/build_job.h"
+#include "app/viewer/draw_list.h"
+#include "app/viewer/layout.h"
+#include "app/viewer/pointed.h"
+#include "core/render/progressive_tracer.h"
+
+namespace boxwood {
+
+/// What panels show beside the state: results, progress, what other parts found out.
+struct PanelInput {
+    const Scene* scene = nullptr;     ///< null: none is open yet
+    const Built* built = nullptr;     ///< what is on screen; null: no structure yet
+    const TreeStats* tree = nullptr;  ///< of `built`
+    Camera camera;                    ///< what the frame shows
+    BuildProgress progress;
+    std::string build_error;     ///< why the state's recipe is not what is shown; empty: it is, or will be
+    bool cancelled = false;      ///< the state's recipe was cancelled
+    double build_wait_ms = 0.0;  ///< from request to result of what is on screen
+    size_t cache_bytes = 0, cache_limit = 0, gpu_bytes = 0;
+    TraceState trace;                  ///< of the traced view; converged or not
+    ColorScale scale;                  ///< of the boxes
+    BoxCounts boxes, reference_boxes;  ///< of the frame before
+    std::optional<Pointed> pointed;
+    std::optional<PixelValue> pixel;  ///< of the traced picture, under the pointer
+    std::string message;              ///< empty: none
+    bool message_is_error = false;
+    std::span<const std::string> recent;
+    size_t undo_count = 0, redo_count = 0;
+};
+
+/// What widgets remember between frames: text being typed, dialogs. No part of the session.
+struct PanelMemory {
+    std::string recipe_text;                  ///< as typed
+    std::string recipe_shown;                 ///< the state's recipe when recipe_text was last taken from it
+    std::string recipe_error;                 ///< why recipe_text is no recipe
+    bool ask_open = false, ask_save = false;  ///< opens the dialog in this frame
+    std::string path;                         ///< typed in a dialog
+    int dragged_handle = 0;                   ///< of the level slider: 0 none, 1 first, 2 last, 3 both
+    float drag_offset = 0.0f;
+};
+
+/// All panels, in the frame that ImGui::NewFrame began: edits the state, returns what else is asked for.
+/// ImGui only; without a scene or a structure the panels say so.
+std::vector<Action> edit(ViewerState& state, const PanelInput& input, const FrameLayout& layout,
+                         PanelMemory& memory);
+
+}  // namespace boxwood

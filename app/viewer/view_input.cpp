@@ -1,0 +1,86 @@
+#include "app/viewer/view_input.h"
+
+#include <imgui.h>
+
+#include <cmath>
+
+namespace boxwood {
+namespace {
+
+constexpr float kRadiansPerPixel = 0.006f;
+constexpr float kZoomPerNotch = 0.85f;
+constexpr float kFlySpeed = 0.35f;  ///< scene sizes a second
+constexpr float kWheelPause = 0.4f;
+
+Vec3 fly_direction() {
+    const auto axis = [](int plus, int minus) {
+        return (ImGui::IsKeyDown(plus) ? 1.0f : 0.0f) - (ImGui::IsKeyDown(minus) ? 1.0f : 0.0f);
+    };
+    return {axis('D', 'A'), axis('E', 'Q'), axis('W', 'S')};
+}
+
+ViewInput::Drag started_drag() {
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) return ViewInput::Drag::Orbit;
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Middle)) return ViewInput::Drag::Pan;
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) return ViewInput::Drag::Look;
+    return ViewInput::Drag::None;
+}
+
+bool is_held(ViewInput::Drag drag) {
+    switch (drag) {
+        case ViewInput::Drag::Orbit:
+            return ImGui::IsMouseDown(ImGuiMouseButton_Left);
+        case ViewInput::Drag::Pan:
+            return ImGui::IsMouseDown(ImGuiMouseButton_Middle);
+        case ViewInput::Drag::Look:
+            return ImGui::IsMouseDown(ImGuiMouseButton_Right);
+        case ViewInput::Drag::None:
+            break;
+    }
+    return false;
+}
+
+Camera look_and_fly(const Camera& camera, const Vec3& up, const Vec2& delta, const Box& scene) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const Camera turned =
+        look_around(camera, up, -delta.x * kRadiansPerPixel * 0.5f, -delta.y * kRadiansPerPixel * 0.5f);
+    const float speed = kFlySpeed * scene_size(scene) * (io.KeyShift ? 10.0f : io.KeyAlt ? 0.1f : 1.0f);
+    const Vec3 direction = fly_direction();
+    if (direction == Vec3(0.0f) || io.KeyCtrl) return turned;
+    return fly(turned, up, direction * (speed * std::min(io.DeltaTime, 0.1f)));
+}
+
+}  // namespace
+
+bool move_camera(ViewerState& state, ViewInput& input, const FrameLayout& layout, const Camera& camera,
+                 const Box& scene, std::vector<Action>& actions) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const Vec2 pointer(io.MousePos.x, io.MousePos.y);
+    const ViewRect& view = layout.scene.contains(pointer) ? layout.scene : layout.traced;
+    const bool over_view = view.contains(pointer) && !io.WantCaptureMouse;
+    const Vec3 up = up_vector(state.up_axis);
+
+    if (over_view && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        actions.push_back(FocusPoint{pointer});
+        return false;
+    }
+    if (!is_held(input.drag)) input.drag = over_view ? started_drag() : ViewInput::Drag::None;
+    const Vec2 delta(io.MouseDelta.x, io.MouseDelta.y);
+    if (input.drag == ViewInput::Drag::Orbit && delta != Vec2(0.0f)) {
+        state.camera = orbit(camera, up, -delta.x * kRadiansPerPixel, delta.y * kRadiansPerPixel);
+    } else if (input.drag == ViewInput::Drag::Pan && delta != Vec2(0.0f)) {
+        state.camera = pan(camera, delta, layout.scene);
+    } else if (input.drag == ViewInput::Drag::Look &&
+               (delta != Vec2(0.0f) || fly_direction() != Vec3(0.0f))) {
+        state.camera = look_and_fly(camera, up, delta, scene);
+    }
+    input.wheel_pause += io.DeltaTime;
+    if (over_view && io.MouseWheel != 0.0f) {
+        const Camera& now = state.camera ? *state.camera : camera;
+        state.camera = zoom_to(now, pointer, std::pow(kZoomPerNotch, io.MouseWheel), view);
+        input.wheel_pause = 0.0f;
+    }
+    return input.drag != ViewInput::Drag::None || input.wheel_pause < kWheelPause;
+}
+
+}  // namespace boxwood

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "app/viewer/action.h"
+#include "app/viewer/layout.h"
+#include "core/scene/scene.h"
+
+namespace boxwood {
+
+/// What the mouse is doing in the view, between frames.
+struct ViewInput {
+    enum class Drag : uint8_t { None, Orbit, Pan, Look };
+    Drag drag = Drag::None;
+    float wheel_pause = 1.0f;  ///< seconds since the wheel turned
+};
+
+/// Moves the state's camera as mouse and flying keys of this ImGui frame ask. True while the camera is being
+/// moved, so that the whole move is one step to undo.
+bool move_camera(ViewerState& state, ViewInput& input, const FrameLayout& layout, const Camera& camera,
+                 const Box& scene, std::vector<Action>& actions);
+
+}  // namespace boxwood
