@@ -234,8 +234,13 @@ void ProgressiveTracer::stop() {
 
 bool ProgressiveTracer::wait(double milliseconds) const {
     std::unique_lock lock(impl_->mutex);
-    const auto limit = std::chrono::duration<double, std::milli>(milliseconds);
-    return impl_->idle_waits.wait_for(lock, limit, [&] { return !impl_->state.running && impl_->busy == 0; });
+    // A clock counts in integers: a longer wait than a day, such as an infinite one, is made of days.
+    constexpr double kDay = 24.0 * 3600.0 * 1000.0;
+    const auto is_idle = [&] { return !impl_->state.running && impl_->busy == 0; };
+    for (; milliseconds > kDay; milliseconds -= kDay) {
+        if (impl_->idle_waits.wait_for(lock, std::chrono::hours(24), is_idle)) return true;
+    }
+    return impl_->idle_waits.wait_for(lock, std::chrono::duration<double, std::milli>(milliseconds), is_idle);
 }
 
 bool ProgressiveTracer::snapshot(Image& image, uint64_t& version) const {
