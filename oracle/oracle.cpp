@@ -28,14 +28,25 @@ bool is_in_range(const Ray& ray, const mpq_class& t) {
 
 }  // namespace
 
-std::optional<mpq_class> intersect(const Ray& ray, const Triangle& triangle) {
+bool hits_line(const Ray& ray, const Triangle& triangle) {
     const QVec3 o(ray.origin), d(ray.direction);
     const QVec3 a = QVec3(triangle.a) - o, b = QVec3(triangle.b) - o, c = QVec3(triangle.c) - o;
     const int u = sgn(dot(d, cross(b, c))), v = sgn(dot(d, cross(c, a))), w = sgn(dot(d, cross(a, b)));
-    if ((u < 0 || v < 0 || w < 0) == (u > 0 || v > 0 || w > 0)) return std::nullopt;
-    const QVec3 normal = cross(b - a, c - a);
-    const mpq_class t = dot(a, normal) / dot(d, normal);
-    return is_in_range(ray, t) ? std::optional(t) : std::nullopt;
+    return (u < 0 || v < 0 || w < 0) != (u > 0 || v > 0 || w > 0);
+}
+
+std::optional<mpq_class> plane_parameter(const Ray& ray, const Triangle& triangle) {
+    const QVec3 a(triangle.a);
+    const QVec3 normal = cross(QVec3(triangle.b) - a, QVec3(triangle.c) - a);
+    const mpq_class denominator = dot(QVec3(ray.direction), normal);
+    if (sgn(denominator) == 0) return std::nullopt;
+    return mpq_class(dot(a - QVec3(ray.origin), normal) / denominator);
+}
+
+std::optional<mpq_class> intersect(const Ray& ray, const Triangle& triangle) {
+    if (!hits_line(ray, triangle)) return std::nullopt;
+    const std::optional<mpq_class> t = plane_parameter(ray, triangle);
+    return t && is_in_range(ray, *t) ? t : std::nullopt;
 }
 
 std::optional<ExactHit> closest_hit(const Mesh& mesh, const Ray& ray) {

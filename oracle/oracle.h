@@ -19,6 +19,12 @@ struct ExactHit {
     mpq_class t;
 };
 
+/// Whether the ray's line, at any t, hits the closed triangle; not if its plane holds the line.
+bool hits_line(const Ray& ray, const Triangle& triangle);
+
+/// t of the ray's line and the triangle's plane; nothing where they are parallel.
+std::optional<mpq_class> plane_parameter(const Ray& ray, const Triangle& triangle);
+
 /// t of the ray and the closed triangle, in the ray's range; nothing for a miss, a triangle without area, or
 /// a plane that holds the ray.
 std::optional<mpq_class> intersect(const Ray& ray, const Triangle& triangle);

@@ -111,9 +111,13 @@ Expansion Expansion::operator*(const Expansion& other) const {
 }
 
 double Expansion::estimate() const {
-    double sum = 0.0;
-    for (const double part : parts_) sum += part;
-    return sum;
+    double sum = 0.0, rest = 0.0;
+    for (const double part : parts_) {
+        const Pair pair = two_sum(sum, part);
+        sum = pair.sum;
+        rest += pair.error;
+    }
+    return sum + rest;
 }
 
 }  // namespace boxwood

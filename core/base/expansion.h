@@ -27,7 +27,10 @@ public:
 
     /// -1, 0 or 1.
     int sign() const { return parts_.empty() ? 0 : parts_.back() > 0.0 ? 1 : -1; }
-    /// The nearest double within one part in 2^52.
+    /// The sum, rounded once but for a relative error below 2^-80: the roundings of a sum from small to large
+    /// are summed too (Ogita, Rump, Oishi, "Accurate Sum and Dot Product", SIAM J. Sci. Comput. 26(6), 2005,
+    /// proposition 4.4: u|s| + (nu)^2 times the sum of |parts|, which is below 8|s| as the parts of sums and
+    /// products are strongly nonoverlapping).
     double estimate() const;
 
 private:

@@ -13,11 +13,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-int largest_component(const Vec3& v) {
-    const Vec3 a = glm::abs(v);
-    return a.x >= a.y ? (a.x >= a.z ? 0 : 2) : (a.y >= a.z ? 1 : 2);
-}
-
 struct ExactVec3 {
     Expansion x, y, z;
 };
@@ -70,48 +65,13 @@ struct ExactT {
     int compare(const ExactT& other) const {
         return (numerator * other.denominator - other.numerator * denominator).sign();
     }
-    /// Within 2^-50 of t.
+    /// Numerator, denominator and their quotient are rounded once each.
     double estimate() const { return numerator.estimate() / denominator.estimate(); }
 };
 
-struct Interval {
-    double lower, upper;
-};
-
-/// Contains the exact t of a triangle that is hit. t = A.n / d.n, n = (b - a) x (c - a), A = a - o. u =
-/// 2^-53: each monomial of A.n carries 3 roundings of differences, 2 of products, 1 of the difference in n, 2
-/// of the sum: at most gamma_8 of the sum of absolute monomials; d.n one less. kTermBound = 10 u covers both
-/// and the rounding of the sums of absolute values. Where the bound says nothing, exact arithmetic narrows
-/// it.
-Interval interval_of_t(const Ray& ray, const Triangle& triangle) {
-    constexpr double kUnit = 0x1p-53;
-    constexpr double kTermBound = 10.0 * kUnit;
-    const DVec3 a = DVec3(triangle.a) - DVec3(ray.origin);
-    const DVec3 e1 = DVec3(triangle.b) - DVec3(triangle.a), e2 = DVec3(triangle.c) - DVec3(triangle.a);
-    const DVec3 d(ray.direction);
-    const DVec3 n = glm::cross(e1, e2);
-    const DVec3 n_abs(std::abs(e1.y * e2.z) + std::abs(e1.z * e2.y),
-                      std::abs(e1.z * e2.x) + std::abs(e1.x * e2.z),
-                      std::abs(e1.x * e2.y) + std::abs(e1.y * e2.x));
-    const double numerator = glm::dot(a, n), denominator = glm::dot(d, n);
-    const double numerator_error = kTermBound * glm::dot(glm::abs(a), n_abs);
-    const double denominator_error = kTermBound * glm::dot(glm::abs(d), n_abs);
-    const double rest = std::abs(denominator) - denominator_error;
-    double t, error;
-    // The quotient's bound: |t - N/D| <= (eN + |N/D| eD) / (|D| - eD), its own arithmetic within 8 u, plus
-    // the division's u |t|.
-    if (rest > 0.0) {
-        t = numerator / denominator;
-        error = (numerator_error + std::abs(t) * denominator_error) / rest * (1.0 + 0x1p-40) +
-                2.0 * kUnit * std::abs(t);
-    } else {
-        t = ExactT(ray, triangle).estimate();
-        error = 0x1p-48 * std::abs(t);
-    }
-    return {t - error, t + error};
-}
-
 }  // namespace
+
+double estimate_t(const Ray& ray, const Triangle& triangle) { return ExactT(ray, triangle).estimate(); }
 
 bool is_valid(const Ray& ray) {
     return is_finite(ray.origin) && is_finite(ray.direction) && ray.direction != Vec3(0.0f) &&
@@ -121,17 +81,10 @@ bool is_valid(const Ray& ray) {
 ClosestHit<Mode::Exact>::ClosestHit(const Ray& ray)
     : ray_(ray),
       slabs_(ray),
-      origin_(ray.origin),
-      kz_(largest_component(ray.direction)),
+      edges_(ray),
       limit_(static_cast<double>(ray.t_max) * RaySlabs::kPad),
       t_lower_(kInfinity),
-      t_upper_(kInfinity) {
-    kx_ = (kz_ + 1) % 3;
-    ky_ = (kz_ + 2) % 3;
-    const DVec3 d(ray.direction);
-    shear_x_ = d[kx_] / d[kz_];
-    shear_y_ = d[ky_] / d[kz_];
-}
+      t_upper_(kInfinity) {}
 
 bool ClosestHit<Mode::Exact>::decide_exactly(const Triangle& triangle) const {
     // The edge functions d.(B x C), d.(C x A), d.(A x B): the closed triangle is hit if no two differ in
@@ -147,7 +100,7 @@ bool ClosestHit<Mode::Exact>::decide_exactly(const Triangle& triangle) const {
 }
 
 bool ClosestHit<Mode::Exact>::is_in_range(const Triangle& triangle) const {
-    const Interval t = interval_of_t(ray_, triangle);
+    const Interval t = interval_of_t<FilterBounds>(ray_, triangle);
     const double t_min = static_cast<double>(ray_.t_min), t_max = static_cast<double>(ray_.t_max);
     if (t.upper < t_min || t.lower > t_max) return false;
     if (t.lower >= t_min && t.upper <= t_max) return true;
@@ -156,7 +109,7 @@ bool ClosestHit<Mode::Exact>::is_in_range(const Triangle& triangle) const {
 }
 
 bool ClosestHit<Mode::Exact>::keep_if_nearer(const Triangle& triangle, uint32_t prim) {
-    const Interval t = interval_of_t(ray_, triangle);
+    const Interval t = interval_of_t<FilterBounds>(ray_, triangle);
     const double t_min = static_cast<double>(ray_.t_min), t_max = static_cast<double>(ray_.t_max);
     if (t.upper < t_min || t.lower > t_max || t.lower > t_upper_) return true;
     const bool is_surely_in_range = t.lower >= t_min && t.upper <= t_max;

@@ -8,67 +8,12 @@
 #include "core/base/ray.h"
 #include "core/base/task.h"
 #include "core/scene/mesh.h"
+#include "core/structure/filter.h"
 
 namespace boxwood {
 
 /// Whether a ray can hit anything: finite origin, finite direction that is not zero, 0 <= t_min <= t_max.
 bool is_valid(const Ray& ray);
-
-/// A ray prepared for box tests, in double: differences and products of floats neither overflow nor underflow
-/// there, and 1/d is infinite only for d = 0.
-class RaySlabs {
-public:
-    explicit RaySlabs(const Ray& ray)
-        : near_origin_(ray.origin),
-          far_origin_(ray.origin),
-          inverse_(1.0 / DVec3(ray.direction)),
-          padded_inverse_(inverse_ * kPad),
-          t_min_(static_cast<double>(ray.t_min)) {
-        for (int axis = 0; axis < 3; ++axis) negative_[axis] = std::signbit(ray.direction[axis]) ? 1 : 0;
-    }
-
-    bool is_negative(int axis) const { return negative_[axis] != 0; }
-
-    /// From here on every box counts as larger by `margin` on each side.
-    void widen(double margin) {
-        for (int axis = 0; axis < 3; ++axis) {
-            near_origin_[axis] += is_negative(axis) ? -margin : margin;
-            far_origin_[axis] -= is_negative(axis) ? -margin : margin;
-        }
-    }
-
-    /// Whether the ray may meet the closed box at a parameter of at most `limit`; then `entry` is a lower
-    /// bound of the parameters inside the box, but for a factor of at most 1 + 2 gamma_3.
-    ///
-    /// With u = 2^-53, a computed plane parameter (plane - o) * inverse carries three roundings: the
-    /// difference, the inverse, the product; so it is exact * (1 + e) with |e| <= gamma_3 = 3u / (1 - 3u).
-    /// Far planes are multiplied by kPad = 1 + 8u >= (1 + 2 gamma_3)(1 + u), so that near <= far holds
-    /// whenever it does exactly: all parameters that count are >= 0, since t_min is. Ize, "Robust BVH Ray
-    /// Traversal", JCGT 2(2), 2013, section 3. A NaN (origin on the plane of a face that the ray is parallel
-    /// to) keeps the other bound: the ray is inside.
-    bool meets(const Vec3& lower, const Vec3& upper, double limit, double& entry) const {
-        const Vec3* const planes[2] = {&lower, &upper};
-        double t0 = t_min_, t1 = limit;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double near_plane = static_cast<double>((*planes[negative_[axis]])[axis]);
-            const double far_plane = static_cast<double>((*planes[1 - negative_[axis]])[axis]);
-            const double near = (near_plane - near_origin_[axis]) * inverse_[axis];
-            const double far = (far_plane - far_origin_[axis]) * padded_inverse_[axis];
-            t0 = near > t0 ? near : t0;
-            t1 = far < t1 ? far : t1;
-        }
-        entry = t0;
-        return t0 <= t1;
-    }
-
-    static constexpr double kPad = 1.0 + 8.0 * 0x1p-53;
-
-private:
-    DVec3 near_origin_, far_origin_;
-    DVec3 inverse_, padded_inverse_;
-    double t_min_;
-    uint32_t negative_[3];  ///< 1 where the direction's sign bit is set
-};
 
 /// Tells a search that takes long for one ray to end early: its answer is then thrown away unread.
 class StoppableSearch {
@@ -121,29 +66,15 @@ public:
 private:
     enum class Decision { Miss, Hit, ExactHit };
 
-    /// Filter of the exact test. Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1),
-    /// 2013, in double: vertices relative to the origin are sheared so that the ray is the z axis; U, V, W
-    /// are the edge functions, whose signs decide.
-    ///
-    /// Bound, u = 2^-53, with m = max|x|,|y| of the sheared vertices + max|z|: a difference a - o is off by
-    /// u|a - o|, the slope s = d_x/d_z by u|s|, |s| <= 1, so x = a_x - s a_z is off by at most u|a_x| +
-    /// 3u|a_z| + u|x| + O(u^2), where |a_x| <= |x| + |a_z|: at most u (2|x| + 4|a_z|) <= 4u m. A product of
-    /// two such numbers is then off by at most 2 m 4u m + u m^2, the difference of two by 18u m^2 + 2u m^2,
-    /// in all 20u m^2 + O(u^2) < 2.3e-15 m^2; computed m^2 is off by a few u. kEdgeBound = 3e-15 covers all.
     Decision decide(const Triangle& triangle) const {
-        const DVec3 a = DVec3(triangle.a) - origin_, b = DVec3(triangle.b) - origin_,
-                    c = DVec3(triangle.c) - origin_;
-        const double ax = a[kx_] - shear_x_ * a[kz_], ay = a[ky_] - shear_y_ * a[kz_];
-        const double bx = b[kx_] - shear_x_ * b[kz_], by = b[ky_] - shear_y_ * b[kz_];
-        const double cx = c[kx_] - shear_x_ * c[kz_], cy = c[ky_] - shear_y_ * c[kz_];
-        const double m =
-            std::max({std::abs(ax), std::abs(ay), std::abs(bx), std::abs(by), std::abs(cx), std::abs(cy)}) +
-            std::max({std::abs(a[kz_]), std::abs(b[kz_]), std::abs(c[kz_])});
-        const double bound = kEdgeBound * m * m;
-        const double u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
-        const double least = std::min({u, v, w}), greatest = std::max({u, v, w});
-        if (least < -bound && greatest > bound) return Decision::Miss;
-        if (least > bound || greatest < -bound) return Decision::Hit;
+        switch (edges_.decide(triangle)) {
+            case EdgeFilter<FilterBounds>::Answer::Miss:
+                return Decision::Miss;
+            case EdgeFilter<FilterBounds>::Answer::Hit:
+                return Decision::Hit;
+            case EdgeFilter<FilterBounds>::Answer::Unknown:
+                break;
+        }
         return decide_exactly(triangle) ? Decision::ExactHit : Decision::Miss;
     }
     bool decide_exactly(const Triangle& triangle) const;
@@ -151,13 +82,9 @@ private:
     /// False if it took exact arithmetic.
     bool keep_if_nearer(const Triangle& triangle, uint32_t prim);
 
-    static constexpr double kEdgeBound = 3e-15;
-
     Ray ray_;
     RaySlabs slabs_;
-    DVec3 origin_;
-    int kx_, ky_, kz_;
-    double shear_x_, shear_y_;
+    EdgeFilter<FilterBounds> edges_;
     double limit_;              // no hit beyond it counts: upper bound of the best t, padded
     double t_lower_, t_upper_;  // of the best hit
     Triangle best_{};
