@@ -10,8 +10,8 @@ namespace boxwood {
 struct ViewRect {
     float x = 0.0f;
     float y = 0.0f;
-    float width = 1.0f;
-    float height = 1.0f;
+    float width = 0.0f;
+    float height = 0.0f;
 
     bool contains(const Vec2& p) const { return p.x >= x && p.y >= y && p.x < x + width && p.y < y + height; }
     bool operator==(const ViewRect&) const = default;

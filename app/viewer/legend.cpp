@@ -59,8 +59,9 @@ template <class Color>
 void legend_window(const Context& context, const char* name, const ViewRect& view, const Legend& legend,
                    const Color& color) {
     const float margin = 8.0f * context.scale;
-    ImGui::SetNextWindowPos({view.x + margin, view.y + view.height - margin}, ImGuiCond_Always, {0.0f, 1.0f});
-    ImGui::SetNextWindowBgAlpha(0.82f);
+    ImGui::SetNextWindowPos({view.x + view.width - margin, view.y + view.height - margin}, ImGuiCond_Always,
+                            {1.0f, 1.0f});
+    ImGui::SetNextWindowBgAlpha(0.92f);
     ImGui::Begin(name, nullptr, kFloating);
     ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
     ImGui::TextUnformatted(legend.title.c_str());
@@ -92,9 +93,8 @@ Legend box_legend(const Context& context) {
         if (has_node) value = pointed->references;
     } else {
         legend.title = "a box's own share of the SAH cost, logarithmic";
-        legend.lower = number_text(100.0 * lower, 2) + " %",
-        legend.upper = number_text(100.0 * upper, 3) + " %";
-        legend.middle = number_text(100.0 * scale.value(0.5), 2) + " %";
+        legend.lower = percent_text(lower, 1.0), legend.upper = percent_text(upper, 1.0);
+        legend.middle = percent_text(scale.value(0.5), 1.0);
         if (has_node) value = pointed->sah_share;
     }
     if (has_node) {
@@ -102,7 +102,7 @@ Legend box_legend(const Context& context) {
         legend.pointed = std::string(pointed->leaf ? "leaf" : "node") + " at level " +
                          std::to_string(pointed->level) + ": " +
                          grouped(static_cast<uint64_t>(pointed->references)) + " references, " +
-                         number_text(100.0 * pointed->sah_share, 2) + " % of cost";
+                         percent_text(pointed->sah_share, 1.0) + " of cost";
     }
     return legend;
 }

@@ -124,7 +124,8 @@ void key_list(const Context& context) {
                 colored(context.colors.accent, row.group);
             }
             ImGui::TextUnformatted(row.keys);
-            ImGui::SameLine(left + column);
+            ImGui::SameLine();
+            ImGui::SetCursorPosX(left + column);
             colored(context.colors.dim, row.what);
         }
         ImGui::EndGroup();

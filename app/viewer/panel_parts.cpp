@@ -45,7 +45,8 @@ void colored(const Vec4& color, const std::string& text) {
 void value_row(const Context& context, const char* name, const std::string& value, const std::string& tip) {
     ImGui::BeginGroup();
     colored(context.colors.dim, name);
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x);
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x);
     ImGui::TextUnformatted(value.c_str());
     ImGui::EndGroup();
     tooltip(context, tip);

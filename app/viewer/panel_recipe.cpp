@@ -107,7 +107,7 @@ void consequence(const Context& context) {
                   percent_text(static_cast<double>(split), static_cast<double>(triangles)) +
                   " of all. They are red in the picture.");
     for (const auto& [reason, count] : built->skipped) {
-        value_row(context, reason.c_str(), grouped(count),
+        value_row(context, ("skipped, " + reason).c_str(), grouped(count),
                   "Not done because this scene does not need it: " + reason + ".");
     }
 }

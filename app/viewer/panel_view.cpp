@@ -43,6 +43,22 @@ void enum_choice(const Context& context, const char* label, Enum& value, Enum de
     value = static_cast<Enum>(index);
 }
 
+void scale_choice(const Context& context) {
+    constexpr std::array<const char*, 7> kScales{"75 %",  "100 %", "125 %", "150 %",
+                                                 "200 %", "250 %", "300 %"};
+    constexpr std::array<float, 7> kFactors{0.75f, 1.0f, 1.25f, 1.5f, 2.0f, 2.5f, 3.0f};
+    float& scale = context.state.interface_scale;
+    ImGui::SetNextItemWidth(-1.0f);
+    const std::string now = "scale " + percent_text(static_cast<double>(scale), 1.0);
+    if (ImGui::BeginCombo("##scale", now.c_str())) {
+        for (size_t i = 0; i < kScales.size(); ++i) {
+            if (ImGui::Selectable(kScales[i], scale == kFactors[i])) scale = kFactors[i];
+        }
+        ImGui::EndCombo();
+    }
+    tooltip(context, "Scale of the interface.");
+}
+
 constexpr std::array<const char*, 3> kColors{"level", "primitives below", "share of SAH cost"};
 constexpr std::array<const char*, 3> kTraced{"off", "beside", "over the mesh"};
 constexpr std::array<const char*, 5> kShadings{"primary", "normals", "ambient occlusion", "heat: nodes",
@@ -142,22 +158,13 @@ void session_part(const Context& context) {
     if (ImGui::Button("Keys")) s.show_keys = !s.show_keys;
     tooltip(context, "?: all keys.");
     constexpr std::array<const char*, 2> kThemes{"dark", "light"};
-    enum_choice(context, "theme", s.theme, kDefault.theme, kThemes, "Colours of the interface.");
-    ImGui::AlignTextToFramePadding();
-    colored(s.interface_scale != 1.0f ? context.colors.changed : context.colors.dim, "scale");
-    ImGui::SameLine(104.0f * context.scale);
-    ImGui::SetNextItemWidth(-1.0f);
-    constexpr std::array<const char*, 7> kScales{"75 %",  "100 %", "125 %", "150 %",
-                                                 "200 %", "250 %", "300 %"};
-    constexpr std::array<float, 7> kFactors{0.75f, 1.0f, 1.25f, 1.5f, 2.0f, 2.5f, 3.0f};
-    if (ImGui::BeginCombo("##scale", percent_text(static_cast<double>(s.interface_scale), 1.0).c_str())) {
-        for (size_t i = 0; i < kScales.size(); ++i) {
-            if (ImGui::Selectable(kScales[i], s.interface_scale == kFactors[i]))
-                s.interface_scale = kFactors[i];
-        }
-        ImGui::EndCombo();
-    }
-    tooltip(context, "Scale of the interface.");
+    const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+    int theme = static_cast<int>(s.theme);
+    ImGui::SetNextItemWidth(half);
+    choice(context, "##theme", theme, 0, kThemes, "Colours of the interface.");
+    s.theme = static_cast<Theme>(theme);
+    ImGui::SameLine();
+    scale_choice(context);
 }
 
 }  // namespace boxwood::panel

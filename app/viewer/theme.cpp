@@ -114,8 +114,8 @@ void set_style(Theme theme, float scale) {
     ImGuiStyle& style = ImGui::GetStyle();
     style = ImGuiStyle();
     style.WindowPadding = {10.0f, 8.0f};
-    style.FramePadding = {6.0f, 3.0f};
-    style.ItemSpacing = {6.0f, 5.0f};
+    style.FramePadding = {6.0f, 2.0f};
+    style.ItemSpacing = {6.0f, 4.0f};
     style.ItemInnerSpacing = {5.0f, 4.0f};
     style.CellPadding = {4.0f, 2.0f};
     style.IndentSpacing = 14.0f;

@@ -1,7 +1,6 @@
 #include "app/viewer/viewer.h"
 
 #include <filesystem>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -182,7 +181,9 @@ void Viewer::wait() {
         if (!build_error_.empty()) throw Error(build_exit_code_, build_error_);
     } while (job_.progress().running || opening_ || !shown_ || !satisfies(*shown_, request_of(state)));
     if (!tracing_) return;
-    tracer_->wait(std::numeric_limits<double>::infinity());
+    constexpr double kLong = 1000.0;  // ms
+    while (!tracer_->wait(kLong)) {
+    }
     update(false);
 }
 

@@ -1,0 +1,203 @@
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include <filesystem>
+
+#include "app/command/commands.h"
+#include "app/gl/read_pixels.h"
+#include "app/viewer/headless.h"
+#include "core/base/file.h"
+#include "core/render/image_compare.h"
+#include "core/render/png.h"
+
+namespace boxwood {
+namespace {
+
+namespace fs = std::filesystem;
+
+Session small_session() {
+    Session session;
+    session.state.scene = "two-triangles@subdivide=4";
+    session.state.recipe = "evh(t=10) > bvh-binned-sah";
+    session.state.width = 820;
+    session.state.height = 420;
+    return session;
+}
+
+uint64_t different_pixels(const Image& a, const Image& b) {
+    const Comparison comparison = compare_images(a, b);
+    EXPECT_TRUE(comparison.same_size);
+    return comparison.different_pixels;
+}
+
+TEST(ViewerFrame, ADragOfTheSliderOfTRebuildsAndDrawsAnotherPicture) {
+    Headless headless;
+    Viewer viewer(small_session());
+    const Image before = headless.frame().capture(viewer);
+    const auto built = viewer.built();
+
+    ImGuiIO& io = ImGui::GetIO();
+    const auto frame = [&](float x, bool down) {
+        io.MousePos = {x, 151.0f};
+        io.MouseDown[0] = down;
+        headless.frame().draw(viewer);
+    };
+    frame(170.0f, false);
+    frame(170.0f, true);
+    for (float x = 172.0f; x <= 230.0f; x += 4.0f) frame(x, true);
+    EXPECT_TRUE(headless.frame().editing());
+    frame(230.0f, false);
+    viewer.wait();
+    EXPECT_NE(viewer.built(), built);
+    EXPECT_EQ(print(viewer.built()->recipe), viewer.state.recipe);
+    EXPECT_GT(viewer.built()->references->refs.size(), built->references->refs.size());
+
+    const Image after = headless.frame().capture(viewer);
+    EXPECT_GT(different_pixels(before, after), 1000u);
+    viewer.apply({UndoStep{}});
+    EXPECT_EQ(viewer.state.recipe, small_session().state.recipe) << "the drag is one step";
+    EXPECT_EQ(headless.messages().first_error, "");
+}
+
+TEST(ViewerFrame, TheLookDependsOnTheSessionAlone) {
+    Session session = small_session();
+    session.state.show_times = false;
+    session.state.traced = TracedView::Beside;
+    session.state.shading = Shading::Heat;
+    Headless headless;
+    const Image first = headless.capture(session);
+    Session other = session;
+    other.state.scene = "cornell";
+    other.state.theme = Theme::Light;
+    other.state.interface_scale = 0.75f;
+    EXPECT_GT(different_pixels(first, headless.capture(other)), 1000u);
+    EXPECT_EQ(headless.capture(session), first);
+}
+
+TEST(ViewerFrame, MovingTheLevelRangeUploadsNothing) {
+    Headless headless;
+    Viewer viewer(small_session());
+    headless.frame().capture(viewer);
+    const uint64_t uploads = headless.frame().scene_renderer().upload_count();
+    for (int level = 0; level < 6; ++level) {
+        viewer.state.levels = {level, level};
+        headless.frame().draw(viewer);
+    }
+    EXPECT_EQ(headless.frame().scene_renderer().upload_count(), uploads);
+}
+
+TEST(ViewerFrame, TheMouseOrbitsAndZooms) {
+    Headless headless;
+    Viewer viewer(small_session());
+    headless.frame().capture(viewer);
+    const Camera before = viewer.camera();
+    ImGuiIO& io = ImGui::GetIO();
+    const auto frame = [&](float x, bool down) {
+        io.MousePos = {x, 300.0f};
+        io.MouseDown[0] = down;
+        headless.frame().draw(viewer);
+    };
+    frame(450.0f, false);
+    frame(450.0f, true);
+    frame(500.0f, true);
+    frame(500.0f, false);
+    const Camera turned = viewer.camera();
+    EXPECT_EQ(turned.target, before.target);
+    EXPECT_GT(glm::distance(turned.eye, before.eye), 0.01f * glm::distance(before.eye, before.target));
+    io.MouseWheel = 2.0f;
+    headless.frame().draw(viewer);
+    EXPECT_LT(glm::distance(viewer.camera().eye, viewer.camera().target),
+              glm::distance(turned.eye, turned.target));
+}
+
+/// A folder with one session and its picture.
+class CheckFolder : public testing::Test {
+protected:
+    CheckFolder() {
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+        write_session("\"leaves_above\": false, \"levels\": [1, 1]");
+        EXPECT_EQ(check({"--update"}), ExitCode::Done);
+        EXPECT_TRUE(fs::exists(folder_ + "/one.png"));
+    }
+    ~CheckFolder() override { fs::remove_all(folder_); }
+
+    void write_session(const std::string& rest) const {
+        write_file_atomically(folder_ + "/one.json",
+                              "{\"version\": 1, \"scene\": \"two-triangles\", \"recipe\": \"esc(s=6) > "
+                              "bvh-sweep-sah(max-leaf-size=1)\", \"size\": [200, 160], \"panels\": false, " +
+                                  rest + "}");
+    }
+    ExitCode check(std::vector<std::string> options = {}) const {
+        std::vector<std::string> arguments{folder_, "--report", folder_ + "/report.html"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return run_check(arguments);
+    }
+    std::string folder_ = testing::TempDir() + "boxwood_check_test";
+};
+
+TEST_F(CheckFolder, ASessionIsTheSameAsItsPicture) {
+    EXPECT_EQ(check(), ExitCode::Done);
+    const auto time = fs::last_write_time(folder_ + "/one.png");
+    EXPECT_EQ(check({"--update"}), ExitCode::Done);
+    EXPECT_EQ(fs::last_write_time(folder_ + "/one.png"), time)
+        << "a picture that is right is not written again";
+}
+
+TEST_F(CheckFolder, OneMovedBoxIsFound) {
+    // The picture is drawn again with the corner of one box moved, as a wrong builder would do.
+    const std::optional<Session> session = load_session(folder_ + "/one.json");
+    ASSERT_TRUE(session);
+    Viewer viewer(*session);
+    viewer.wait();
+    LevelTable levels = *viewer.built()->levels;
+    Box& box = levels.list.nodes[levels.level(1)[0]].bounds;
+    box.upper.x += 0.2f * static_cast<float>(box.extent().x);
+    Headless headless;
+    const Image right = headless.capture(*session);
+    EXPECT_EQ(different_pixels(right, read_png(folder_ + "/one.png").image), 0u);
+
+    RenderTarget target(right.width, right.height);
+    SceneRenderer renderer;
+    const auto draw = [&](const LevelTable& table) {
+        const BoxValues values = make_box_values(table.list);
+        renderer.set_mesh(viewer.scene()->mesh);
+        renderer.set_boxes(table, values);
+        renderer.set_references(viewer.built()->references->refs, viewer.scene()->mesh.triangle_count());
+        target.clear(0.12f);
+        renderer.draw(make_draw_list(viewer.state, table, values), viewer.camera(), target,
+                      {0, 0, right.width, right.height});
+        return read_pixels(target);
+    };
+    EXPECT_EQ(different_pixels(draw(*viewer.built()->levels), right), 0u)
+       ;
+    write_png(folder_ + "/one.png", draw(levels), print_session(*session, folder_));
+    EXPECT_EQ(check(), ExitCode::CheckFailed);
+    EXPECT_EQ(check({"--update"}), ExitCode::Done);
+    EXPECT_EQ(check(), ExitCode::Done);
+}
+
+TEST_F(CheckFolder, AnotherLevelIsFoundAndTheLimitsAreTheSessions) {
+    write_session("\"levels\": [0, 2]");
+    EXPECT_EQ(check(), ExitCode::CheckFailed);
+    write_session("\"levels\": [0, 2], \"check\": {\"pixels\": 32000, \"tile_mean\": 255}");
+    EXPECT_EQ(check(), ExitCode::Done);
+}
+
+TEST_F(CheckFolder, AMissingPictureAndABadSessionFail) {
+    fs::remove(folder_ + "/one.png");
+    EXPECT_EQ(check(), ExitCode::CheckFailed);
+    EXPECT_EQ(check({"--update"}), ExitCode::Done);
+    write_file_atomically(folder_ + "/two.json", "{\"version\": 1, \"theme\": \"pink\"}");
+    EXPECT_EQ(check(), ExitCode::CheckFailed);
+}
+
+TEST(Screenshots, AreAsTheyWere) {
+    const std::string folder = std::string(BOXWOOD_SOURCE_DIR) + "/screenshots";
+    const std::string report = testing::TempDir() + "boxwood-screenshots.html";
+    EXPECT_EQ(run_check(std::vector<std::string>{folder, "--report", report}), ExitCode::Done)
+        << "see " << report;
+}
+
+}  // namespace
+}  // namespace boxwood
