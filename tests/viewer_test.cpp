@@ -192,12 +192,5 @@ TEST_F(CheckFolder, AMissingPictureAndABadSessionFail) {
     EXPECT_EQ(check(), ExitCode::CheckFailed);
 }
 
-TEST(Screenshots, AreAsTheyWere) {
-    const std::string folder = std::string(BOXWOOD_SOURCE_DIR) + "/screenshots";
-    const std::string report = testing::TempDir() + "boxwood-screenshots.html";
-    EXPECT_EQ(run_check(std::vector<std::string>{folder, "--report", report}), ExitCode::Done)
-        << "see " << report;
-}
-
 }  // namespace
 }  // namespace boxwood

@@ -1,7 +1,7 @@
 #include "app/viewer/viewer.h"
 
-#include <filesystem>
-#include <type_traits>
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/viewer/clipboard.h"
@@ -38,8 +38,17 @@ Viewer::Viewer(Session session, Settings settings)
 Camera Viewer::camera() const {
     if (state.camera) return *state.camera;
     if (!scene_) return Camera{};
-    if (scene_->camera) return *scene_->camera;
-    return fit_camera(scene_->mesh.bounds(), Camera{}.fov, up_vector(state.up_axis));
+    Camera camera = scene_->camera
+                        ? *scene_->camera
+                        : fit_camera(scene_->mesh.bounds(), Camera{}.fov, up_vector(state.up_axis));
+    // A view narrower than the one such cameras are made for keeps the width of what they show.
+    constexpr float kAspect = 1.6f;
+    const ViewRect view = make_layout(state).scene;
+    if (view.width < kAspect * view.height) {
+        const float slope = std::tan(glm::radians(0.5f * camera.fov)) * kAspect * view.height / view.width;
+        camera.fov = std::min(glm::degrees(2.0f * std::atan(slope)), 100.0f);
+    }
+    return camera;
 }
 
 Session Viewer::session() const {
