@@ -22,6 +22,9 @@ if(BOXWOOD_SANITIZE)
     target_compile_options(boxwood_options INTERFACE
         -fsanitize=${boxwood_sanitizers} -fno-sanitize-recover=all)
     target_link_options(boxwood_options INTERFACE -fsanitize=${boxwood_sanitizers})
+    # Leaks of Mesa's that are not ours.
+    target_sources(boxwood_options INTERFACE
+        $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:${CMAKE_SOURCE_DIR}/cmake/sanitizer_options.cpp>)
     # g++ 12 warns falsely about initialised memory once the sanitizers have rewritten the code.
     target_compile_options(boxwood_options INTERFACE -Wno-maybe-uninitialized -Wno-stringop-overflow)
     if("thread" IN_LIST BOXWOOD_SANITIZE)
