@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include <filesystem>
+
 #include "app/viewer/keys.h"
 #include "app/viewer/ui_context.h"
 #include "app/viewer/viewer.h"
+#include "core/base/file.h"
 
 namespace boxwood {
 namespace {
@@ -189,6 +192,26 @@ TEST_F(Panels, AFileThatCannotBeReadLeavesTheOldScene) {
     EXPECT_EQ(viewer_.state.scene, "two-triangles");
     EXPECT_EQ(viewer_.built()->scene->mesh.triangle_count(), 2u);
     EXPECT_EQ(viewer_.message(), "");
+}
+
+TEST_F(Panels, AFileThatChangedIsReadAgain) {
+    const std::string path = testing::TempDir() + "panels_test.obj";
+    write_file_atomically(path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    viewer_.open(path);
+    viewer_.wait();
+    ASSERT_EQ(viewer_.scene()->mesh.triangle_count(), 1u) << viewer_.message();
+    EXPECT_FALSE(viewer_.settings().recent.empty());
+    const auto mesh_of = [&](const std::string& text) {
+        write_file_atomically(path, text);
+        viewer_.reload();
+        viewer_.wait();
+        return viewer_.scene()->mesh.triangle_count();
+    };
+    EXPECT_EQ(mesh_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n"), 2u);
+    EXPECT_EQ(viewer_.built()->scene->mesh.triangle_count(), 2u);
+    EXPECT_EQ(mesh_of("no scene at all"), 2u) << "what cannot be read leaves the old scene";
+    EXPECT_FALSE(viewer_.message().empty());
+    std::filesystem::remove(path);
 }
 
 TEST_F(Panels, LayoutLeavesTheWholeFrameToTheViewWherePanelsAreHidden) {

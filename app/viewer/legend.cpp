@@ -137,7 +137,8 @@ Vec3 srgb_of(const Vec3& linear) {
 
 void legends(const Context& context) {
     const ViewerState& state = context.state;
-    if (state.show_boxes && context.input.built != nullptr) {
+    const Built* built = context.input.built;
+    if (state.show_boxes && built != nullptr && built->levels->level_count() > 0) {
         const ColorScale& scale = context.input.scale;
         legend_window(context, "box legend", context.layout.scene, box_legend(context), [&](float x) {
             const float last = static_cast<float>(scale.palette.size() - 1);

@@ -2,6 +2,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string_view>
 
@@ -98,7 +99,9 @@ void work_line(const Context& context) {
     if (!progress.running || progress.ms < kPatience) return;
     begin_top("work", context, context.input.message.empty() ? 8.0f * context.scale : 56.0f * context.scale);
     ImGui::TextUnformatted((progress.sentence + ", " + time_text(progress.ms)).c_str());
-    const float share = progress.share >= 0.0 ? static_cast<float>(progress.share) : 0.0f;
+    constexpr double kRound = 2000.0;  // ms that a bar of unknown end takes to fill again and again
+    const double filled = progress.share >= 0.0 ? progress.share : std::fmod(progress.ms, kRound) / kRound;
+    const float share = static_cast<float>(filled);
     ImGui::ProgressBar(share, {260.0f * context.scale, 0.0f}, progress.share >= 0.0 ? nullptr : "");
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) context.actions.push_back(CancelWork{});

@@ -133,8 +133,9 @@ void recipe_text(const Context& context) {
         memory.recipe_text = context.state.recipe;
         memory.recipe_error.clear();
     }
-    tooltip(context,
-            "The recipe, as on the command line: references > builder > transforms.\n" + memory.recipe_text);
+    if (!ImGui::IsItemActive())
+        tooltip(context, "The recipe, as on the command line: references > builder > transforms.\n" +
+                             memory.recipe_text);
     if (!memory.recipe_error.empty()) {
         ImGui::PushTextWrapPos(0.0f);
         colored(context.colors.error, memory.recipe_error);

@@ -34,9 +34,8 @@ std::string scene_numbers(const std::string& stage, const std::string& key, doub
                           const Scene* scene) {
     if (scene == nullptr || stage != "evh" || key != "t") return {};
     const double volume = scene->mesh.bounds().volume();
-    return "\nAn edge is split where the volume of its box exceeds\nV / 2^t = " + number_text(volume) +
-           " / 2^" + number_text(value) + " = " + number_text(volume * std::exp2(-value)) +
-           " cubic world units.";
+    return "\nV / 2^t = " + number_text(volume) + " / 2^" + number_text(value) + " = " +
+           number_text(volume * std::exp2(-value)) + " cubic world units.";
 }
 
 /// A widget for each parameter.

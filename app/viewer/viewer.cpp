@@ -42,10 +42,10 @@ Camera Viewer::camera() const {
                         ? *scene_->camera
                         : fit_camera(scene_->mesh.bounds(), Camera{}.fov, up_vector(state.up_axis));
     // A view narrower than the one such cameras are made for keeps the width of what they show.
-    constexpr float kAspect = 1.6f;
+    const float aspect = scene_->camera ? 1.25f : 1.0f;
     const ViewRect view = make_layout(state).scene;
-    if (view.width < kAspect * view.height) {
-        const float slope = std::tan(glm::radians(0.5f * camera.fov)) * kAspect * view.height / view.width;
+    if (view.width < aspect * view.height) {
+        const float slope = std::tan(glm::radians(0.5f * camera.fov)) * aspect * view.height / view.width;
         camera.fov = std::min(glm::degrees(2.0f * std::atan(slope)), 100.0f);
     }
     return camera;
@@ -128,6 +128,12 @@ void Viewer::take(const BuildResult& result) {
         built_.reset();
         values_.reset();
         tree_.reset();
+    }
+    if (scene_->mesh.triangle_count() == 0) {
+        say(scene_->title + (scene_->mesh.points.positions.empty()
+                                 ? " has no triangles: there is nothing to build or trace."
+                                 : " holds points alone: surfaces for points come later."),
+            false);
     }
     shown_ = result.request;
     shown_->reload = false;
