@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <mutex>
 
+#include "bench/plain_ray.h"
 #include "bench/stress_cases.h"
 #include "core/base/parallel.h"
 #include "core/base/timer.h"
@@ -29,37 +30,20 @@ std::string describe(const Hit& hit) {
     return text;
 }
 
-/// Accuracy page: no |U|, |V|, |W| of any triangle the ray's line meets within 1e-6 M^2 of zero, the hit not
-/// at an end of the range. In double, which is far finer than the margin.
-bool is_plain(const Mesh& mesh, const Ray& ray, float t) {
-    const DVec3 o(ray.origin), d = glm::normalize(DVec3(ray.direction));
-    for (uint32_t prim = 0; prim < mesh.triangle_count(); ++prim) {
-        const Triangle triangle = mesh.triangle(prim);
-        const DVec3 a = DVec3(triangle.a) - o, b = DVec3(triangle.b) - o, c = DVec3(triangle.c) - o;
-        const double u = glm::dot(d, glm::cross(b, c)), v = glm::dot(d, glm::cross(c, a)),
-                     w = glm::dot(d, glm::cross(a, b));
-        const double m = std::max({glm::length(a), glm::length(b), glm::length(c)});
-        const double margin = 1e-6 * m * m;
-        const double least = std::min({u, v, w}), greatest = std::max({u, v, w});
-        if (least < -margin && greatest > margin) continue;  // clearly beside it
-        if (std::min({std::abs(u), std::abs(v), std::abs(w)}) <= margin) return false;
-    }
-    const auto is_near = [&](float end) { return std::abs(t - end) <= 1e-5f * std::abs(end); };
-    return !is_near(ray.t_min) && !is_near(ray.t_max);
-}
-
 struct Judgement {
     const StressKind& kind;
     const Mesh& mesh;
     StressRow& row;
-    std::string place;  ///< recipe, kind and seed, for the first failure
+    std::string recipe;
+    uint64_t seed;
 
     void fail(uint64_t& counter, const Ray& ray, const Hit& found, const std::string& expected) const {
         ++counter;
         if (row.mode == Mode::Fast && &counter != &row.wrong_hits) return;
         if (row.first_failure.empty()) {
-            row.first_failure =
-                place + ": ray " + hex_ray(ray) + ": found " + describe(found) + ", expected " + expected;
+            row.first_failure = recipe + ", " + kind.name + ", seed " + std::to_string(seed) + ": ray " +
+                                hex_ray(ray) + ": found " + describe(found) + ", expected " + expected;
+            row.failure = StressFailure{recipe, kind.name, row.mode, kind.make, seed, kind.ray_count, ray};
         }
     }
 
@@ -93,7 +77,8 @@ struct Judgement {
 };
 
 /// One case: built, traced, judged, added to the row.
-void run_case(const Recipe& recipe, const StressKind& kind, uint64_t seed, StressRow& row, Task& task) {
+void run_case(const StressSettings& settings, const Recipe& recipe, const StressKind& kind, uint64_t seed,
+              StressRow& row, Task& task) {
     const StressCase test = kind.make(seed, kind.ray_count);
     const References references = recipe.references.method().make(test.mesh, task);
     Structure structure = recipe.builder.method().build(test.mesh, references.refs, task);
@@ -104,8 +89,8 @@ void run_case(const Recipe& recipe, const StressKind& kind, uint64_t seed, Stres
     std::vector<Count> counts(test.rays.size());
     structure.closest_hits_counted(test.mesh, test.rays, hits, counts, row.mode, task);
     if (task.stopped()) return;
-    const Judgement judgement{kind, test.mesh, row,
-                              print(recipe) + ", " + kind.name + ", seed " + std::to_string(seed)};
+    if (settings.tamper) settings.tamper(hits);
+    const Judgement judgement{kind, test.mesh, row, print(recipe), seed};
     for (size_t i = 0; i < hits.size(); ++i) judgement.judge(test.rays[i], hits[i]);
     for (const Count& count : counts) row.exact_decisions += count.exact;
     row.rays += hits.size();
@@ -121,12 +106,15 @@ void merge(StressRow& total, const StressRow& part) {
     total.wrong_prims += part.wrong_prims;
     total.wrong_t += part.wrong_t;
     total.exact_decisions += part.exact_decisions;
-    if (total.first_failure.empty()) total.first_failure = part.first_failure;
+    if (total.first_failure.empty()) {
+        total.first_failure = part.first_failure;
+        total.failure = part.failure;
+    }
 }
 
 /// Rounds of one case on each thread until the kind's share of time is used and its rays are cast.
-StressRow run_kind(const Recipe& recipe, const StressKind& kind, Mode mode, double seconds,
-                   uint64_t least_rays, uint64_t seed, Task& task) {
+StressRow run_kind(const StressSettings& settings, const Recipe& recipe, const StressKind& kind, Mode mode,
+                   double seconds, uint64_t least_rays, Task& task) {
     StressRow row;
     row.recipe = print(recipe);
     row.kind = kind.name;
@@ -138,7 +126,7 @@ StressRow run_kind(const Recipe& recipe, const StressKind& kind, Mode mode, doub
         std::vector<StressRow> parts(thread_number);
         parallel_for(thread_number, 1, [&](size_t begin, size_t) {
             parts[begin].mode = mode;
-            run_case(recipe, kind, seed + row.cases + begin, parts[begin], task);
+            run_case(settings, recipe, kind, settings.seed + row.cases + begin, parts[begin], task);
         });
         for (const StressRow& part : parts) merge(row, part);
     }
@@ -156,9 +144,9 @@ std::vector<StressRow> run_stress(const StressSettings& settings, Task& task) {
             for (const StressKind& kind : kinds) {
                 if (task.stopped()) return rows;
                 const uint64_t least_rays = kind.judge == Judge::MustHit ? settings.aimed_rays / 2 : 0;
-                rows.push_back(run_kind(recipe, kind, mode,
+                rows.push_back(run_kind(settings, recipe, kind, mode,
                                         settings.seconds / static_cast<double>(kinds.size()), least_rays,
-                                        settings.seed, task));
+                                        task));
                 ++task.done;
             }
         }

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "bench/stress_cases.h"
 #include "core/base/ray.h"
 #include "core/base/task.h"
 #include "core/catalog/recipe.h"
@@ -18,6 +22,18 @@ struct StressSettings {
     uint64_t aimed_rays =
         0;  ///< at least so many rays on closed meshes for each recipe and mode, whatever it takes
     uint64_t seed = 1;
+    std::function<void(std::span<Hit>)> tamper;  ///< for tests: changes the answers before they are judged
+};
+
+/// A ray with a wrong answer and how to make its case again: make(seed, ray_count).
+struct StressFailure {
+    std::string recipe;
+    std::string kind;
+    Mode mode = Mode::Exact;
+    StressCase (*make)(uint64_t seed, size_t ray_count) = nullptr;
+    uint64_t seed = 0;
+    size_t ray_count = 0;
+    Ray ray;
 };
 
 /// What one recipe did on one kind of case in one mode.
@@ -36,6 +52,8 @@ struct StressRow {
     uint64_t exact_decisions = 0;  ///< left to exact arithmetic
     std::string
         first_failure;  ///< recipe, kind and seed, the ray in hex, what was found and what was expected
+
+    std::optional<StressFailure> failure;  ///< the same, to be saved
 
     /// Exact mode: no wrong answer of any kind. Fast mode: no wrong hit or miss on plain rays.
     bool holds() const {

@@ -167,5 +167,34 @@ TEST(ClipBounds, DoesNotDependOnTheOrderOfCorners) {
     }
 }
 
+/// Boxes that cut off some of the part, where an edge crosses the plane z = K so that x is very close to a
+/// float: x = m + K x0 / z0 for ends at m +- x0 and +- z0; K x0 / z0 is a multiple of 2^-36, the distance of
+/// floats near m, but for 2^-24 of it.
+int boxes_too_small(double bound_scale, int case_count) {
+    Rng rng(8);
+    int too_small = 0;
+    for (int i = 0; i < case_count; ++i) {
+        const float x = 1.0f + 0.03f * rng.next(), z = 1.0f + 0.03f * rng.next();
+        const float middle = std::ldexp(1.0f + static_cast<float>(rng.next_index(256)) / 256.0f, -13);
+        const double step = std::ldexp(1.0 + static_cast<double>(rng.next_index(31)), -36);
+        const float plane = static_cast<float>(step * double(z) / double(x));
+        const Triangle triangle{{x + middle, 0, z}, {middle - x, 0, -z}, {4, 1, z}};
+        const Box box{{-2, -1, plane}, {6, 2, 2}};
+        const std::vector<oracle::ExactPoint> part = oracle::clip(triangle, box);
+        const float lower = clip_bounds(triangle, box, bound_scale).lower.x;
+        for (const oracle::ExactPoint& p : part)
+            if (p[0] < double(lower)) {
+                ++too_small;
+                break;
+            }
+    }
+    return too_small;
+}
+
+TEST(ClipBounds, TheErrorBoundHoldsAndHalfOfItDoesNot) {
+    EXPECT_EQ(boxes_too_small(1.0, 6000), 0);
+    EXPECT_GT(boxes_too_small(0.5, 6000), 0);
+}
+
 }  // namespace
 }  // namespace boxwood

@@ -297,5 +297,33 @@ TEST(EdgeVolume, AStopEndsIt) {
     EXPECT_TRUE(EdgeVolume{30}.make(make_mesh(random_triangles(10, -1, 1, 12)), task).refs.empty());
 }
 
+TEST(EdgeVolume, BoundOfMiddlesHoldsAndHalfOfItDoesNot) {
+    // (depth - 1/2) u M, as derived in edge_volume.cpp. One axis is enough: middles of random edges.
+    Rng rng(9);
+    double largest_ratio = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+        std::array<double, 3> corners;
+        std::array<mpq_class, 3> exact;
+        double most = 0.0;
+        for (size_t k = 0; k < 3; ++k) {
+            const float mantissa = rng.next(1.0f, 2.0f);
+            const float sign = rng.next() < 0.25f ? -1.0f : 1.0f;
+            corners[k] = double(std::ldexp(sign * mantissa, -static_cast<int>(rng.next_index(3)) * 16));
+            exact[k] = corners[k];
+            most = std::max(most, std::abs(corners[k]));
+        }
+        for (int depth = 1; depth <= 6; ++depth) {
+            const size_t a = rng.next_index(3), b = (a + 1) % 3;
+            const size_t replaced = rng.next() < 0.5f ? a : b;
+            corners[replaced] = (corners[a] + corners[b]) * 0.5;
+            exact[replaced] = (exact[a] + exact[b]) / 2;
+            const mpq_class error = abs(mpq_class(exact[replaced] - corners[replaced]));
+            largest_ratio = std::max(largest_ratio, error.get_d() / ((depth - 0.5) * 0x1p-53 * most));
+        }
+    }
+    EXPECT_LE(largest_ratio, 1.0);
+    EXPECT_GT(largest_ratio, 0.5);
+}
+
 }  // namespace
 }  // namespace boxwood

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "core/base/rng.h"
+#include "core/structure/closest.h"
 #include "oracle/oracle.h"
 
 // Every bound is needed: with the derived one no answer is wrong, with half of it some are. Inputs are made
@@ -122,13 +125,13 @@ int intervals_without_t(int case_count) {
 }
 
 TEST(FilterBounds, BoundOfTHoldsAndHalfOfItDoesNot) {
-    EXPECT_EQ(intervals_without_t<FilterBounds>(20000), 0);
-    EXPECT_GT(intervals_without_t<HalfTerm>(20000), 0);
+    EXPECT_EQ(intervals_without_t<FilterBounds>(8000), 0);
+    EXPECT_GT(intervals_without_t<HalfTerm>(8000), 0);
 }
 
 TEST(FilterBounds, BoundOfTheEstimateHoldsAndHalfOfItDoesNot) {
-    EXPECT_EQ(intervals_without_t<Estimated>(4000), 0);
-    EXPECT_GT(intervals_without_t<HalfEstimate>(4000), 0);
+    EXPECT_EQ(intervals_without_t<Estimated>(2000), 0);
+    EXPECT_GT(intervals_without_t<HalfEstimate>(2000), 0);
 }
 
 /// A ray that enters a box in its x plane and leaves it in its y plane at the same exact t = n / m: extents
@@ -171,6 +174,73 @@ TEST(FilterBounds, SlabPadHoldsAndTheNextSmallerDoesNot) {
     Rng rng(3);
     const AtCorner test = at_corner(rng);
     EXPECT_TRUE(oracle::meets(test.ray, test.box));
+}
+
+/// A ray that passes a corner of a triangle at some units of float, on the outside. Distances are just above
+/// 1, and differences with the origin round.
+Aimed past_corner(Rng& rng) {
+    const float ox = 0x1p-10f * one(rng) * sign(rng), oz = 0x1p-10f * one(rng) * sign(rng);
+    const float dz = one(rng), dx = dz * (1.0f - 0.01f * rng.next()), bz = one(rng);
+    const double offset = double(rng.next(0.0f, 6.0f)) * 0x1p-24;
+    const double x = double(ox) + double(dx) / double(dz) * (double(bz) - double(oz)) + offset;
+    Aimed result;
+    result.ray.origin = {ox, 0.0f, oz};
+    result.ray.direction = {dx, 0.0f, dz};
+    result.triangle.a = {static_cast<float>(x), 0.0f, bz};
+    result.triangle.b = result.triangle.a + Vec3(0.125f, 0.5f, 0.0f);
+    result.triangle.c = result.triangle.a + Vec3(0.125f, -0.5f, 0.0f);
+    return result;
+}
+
+/// Hits of fast mode whose ray misses the triangle's box, widened by so much of the reach, up to the hit.
+int fast_hits_outside(const std::function<Aimed(Rng&)>& make, double margin, int case_count, int& hit_count) {
+    Rng rng(4);
+    int outside = 0;
+    for (int i = 0; i < case_count; ++i) {
+        const Aimed aimed = make(rng);
+        ClosestHit<Mode::Fast> closest(aimed.ray);
+        NoCount count;
+        closest.test(aimed.triangle, 0, count);
+        const Hit hit = closest.hit({});
+        if (!hit.is_hit()) continue;
+        ++hit_count;
+        const Box box = aimed.triangle.bounds();
+        const DVec3 origin(aimed.ray.origin);
+        const DVec3 reach =
+            glm::max(glm::abs(DVec3(box.lower) - origin), glm::abs(DVec3(box.upper) - origin));
+        RaySlabs slabs(aimed.ray);
+        slabs.widen(margin * std::max({reach.x, reach.y, reach.z}));
+        double entry;
+        outside += !slabs.meets(box.lower, box.upper, double(hit.t) * (1.0 + 0x1p-48), entry);
+    }
+    return outside;
+}
+
+/// Thin, short and far triangles, with corners that differ by roundings.
+Aimed past_sliver(Rng& rng) {
+    const auto point = [&](float extent) {
+        const float x = rng.next(-extent, extent), y = rng.next(-extent, extent),
+                    z = rng.next(-extent, extent);
+        return Vec3(x, y, z);
+    };
+    Aimed result;
+    result.ray.origin = point(2.0f);
+    result.triangle.a = point(1.0f);
+    const float size = std::ldexp(1.0f, -static_cast<int>(rng.next_index(25)));
+    result.triangle.b = result.triangle.a + point(size);
+    result.triangle.c = result.triangle.b + point(std::ldexp(size, -static_cast<int>(rng.next_index(25))));
+    result.ray.direction = result.triangle.a + point(size) - result.ray.origin;
+    return result;
+}
+
+TEST(FastMode, MarginHoldsAndHalfOfItDoesNot) {
+    constexpr double kMargin = ClosestHit<Mode::Fast>::kMargin;
+    int hit_count = 0, sliver_hit_count = 0;
+    EXPECT_EQ(fast_hits_outside(past_corner, kMargin, 300000, hit_count), 0);
+    EXPECT_GT(hit_count, 10000);
+    EXPECT_EQ(fast_hits_outside(past_sliver, kMargin, 300000, sliver_hit_count), 0);
+    EXPECT_GT(sliver_hit_count, 1000);
+    EXPECT_GT(fast_hits_outside(past_corner, 0.5 * kMargin, 300000, hit_count), 0);
 }
 
 }  // namespace

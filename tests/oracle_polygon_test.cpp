@@ -77,6 +77,45 @@ Mesh subdivided_mesh(uint64_t seed, float offset, float scale) {
     return mesh;
 }
 
+/// Faces that, moved inward by one float, leave some of the triangle outside all of its boxes.
+int needed_faces(std::vector<Box> boxes, const Triangle& triangle) {
+    int needed = 0;
+    for (Box& box : boxes)
+        for (int axis = 0; axis < 3; ++axis)
+            for (float* face : {&box.lower[axis], &box.upper[axis]}) {
+                const float was = *face;
+                *face = std::nextafter(was, face == &box.lower[axis] ? box.upper[axis] : box.lower[axis]);
+                needed += *face != was && !oracle::covers(boxes, triangle);
+                *face = was;
+            }
+    return needed;
+}
+
+TEST(OraclePolygon, ARoundingTurnedInwardLeavesAGap) {
+    const Mesh mesh = random_triangles(6, 1.0f, 3);
+    for (const char* method : {"evh", "esc"}) {
+        Task task;
+        const References references =
+            method == std::string("evh")
+                ? EdgeVolume{.t = 7}.make(mesh, task)
+                : EarlySplitClipping{.limit = {.absolute = false, .value = 5.0}}.make(mesh, task);
+        int face_count = 0, needed = 0;
+        for (uint32_t prim = 0; prim < mesh.triangle_count(); ++prim) {
+            std::vector<Box> boxes;
+            for (const PrimRef& ref : references.refs)
+                if (ref.prim == prim) boxes.push_back(ref.bounds);
+            face_count += 6 * static_cast<int>(boxes.size());
+            needed += needed_faces(boxes, mesh.triangle(prim));
+        }
+        // Disjoint boxes that are as small as can be need every face; those of edge volume overlap.
+        if (method == std::string("esc")) {
+            EXPECT_EQ(needed, face_count);
+        } else {
+            EXPECT_GT(needed, face_count / 10);
+        }
+    }
+}
+
 template <class Method>
 void expect_cover(const Method& method, const Mesh& mesh, size_t least_refs) {
     Task task;

@@ -1,123 +1,50 @@
-#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
 
-#include "app/cli/progress.h"
 #include "app/command/commands.h"
-#include "app/command/shared.h"
-#include "app/gl/context_osmesa.h"
-#include "app/gl/scene_renderer.h"
-#include "app/viewer/box_values.h"
-#include "bench/interact.h"
+#include "core/scene/scene.h"
 
 namespace boxwood {
 namespace {
 
-constexpr const char* kSuites[] = {"interact"};
-
-/// `interact` on one scene: the recipe's builder under the slider of t, and stops of the tracer.
-class Interact {
-public:
-    Interact(const std::string& spec, const Recipe& recipe, size_t shading)
-        : scene_(open_surface(spec)), recipe_(recipe) {
-        settings_.camera = scene_->camera.value_or(fit_camera(scene_->mesh.bounds()));
-        settings_.shading = static_cast<Shading>(shading);
-    }
-
-    ReportRow slider(int first_t, int step_count, bench::Memory memory) const {
-        OsmesaContext context;
-        SceneRenderer renderer;
-        renderer.set_mesh(scene_->mesh);
-        Task task;
-        const Progress progress(scene_->title + ": moving the slider of t", task);
-        const bench::Times times = bench::time_slider_steps(
-            scene_, recipe_.builder.text(), first_t, step_count, memory,
-            [&](const Built& built) {
-                renderer.set_boxes(*built.levels, make_box_values(built.levels->list));
-            },
-            task);
-        const char* what = memory == bench::Memory::Shared ? "slider of t to uploaded boxes"
-                                                           : "slider of t, every stage run again";
-        ReportRow row = row_of(what, recipe_, times);
-        return row.set("t", std::to_string(first_t) + " to " + std::to_string(first_t + step_count - 1));
-    }
-
-    ReportRow stops(const Recipe& recipe, int stop_count) {
-        const Built built = build_shown(recipe, scene_, cache_, /*with_levels=*/false);
-        Task task;
-        const Progress progress(scene_->title + ": stopping the ray tracer", task);
-        return row_of("stop of the ray tracer", recipe,
-                      bench::time_tracer_stops(scene_, built.structure, settings_, stop_count, task));
-    }
-
-private:
-    ReportRow row_of(const char* what, const Recipe& recipe, const bench::Times& times) const {
-        return boxwood::row_of(*scene_, recipe)
-            .set("triangles", uint64_t{scene_->mesh.triangle_count()})
-            .set("what", std::string(what))
-            .set("times", uint64_t{times.ms.size()})
-            .set("median_ms", times.percentile(0.5))
-            .set("p99_ms", times.percentile(0.99))
-            .set("worst_ms", times.percentile(1.0));
-    }
-
-    std::shared_ptr<const Scene> scene_;
-    Recipe recipe_;
-    TraceSettings settings_;
-    StageCache cache_;
+/// One suite of measurements, with options of its own.
+constexpr Command kSuites[] = {
+    {"error", "run time against error: both modes and plain double precision", run_bench_error},
+    {"interact", "how quickly the program answers", run_bench_interact},
 };
+
+void print_help() {
+    std::string text =
+        "Measures. Each suite has options of its own.\n\n"
+        "Usage: boxwood bench SUITE [OPTIONS]\n\n"
+        "Suites:\n";
+    for (const Command& suite : kSuites) {
+        std::string name = suite.name;
+        name.resize(10, ' ');
+        text += "  " + name + suite.summary + "\n";
+    }
+    text += "\n  boxwood bench SUITE --help   what the suite takes\n";
+    std::fputs(text.c_str(), stdout);
+}
 
 }  // namespace
 
 ExitCode run_bench(Arguments arguments) {
-    std::string suite;
-    std::vector<std::string> scenes;
-    std::string recipe_text = kDefaultRecipe;
-    std::string json;
-    size_t shading = 0;
-    int first_t = 5;
-    int step_count = 20;
-    int stop_count = 200;
-    int threads = 0;
-    Options options("bench", "Measures how quickly the program answers (suite: interact).");
-    options.argument("SUITE", suite, /*required=*/true, "interact");
-    options.texts("-s,--scene", "SCENE", scenes,
-                  "scene to measure with; may be given several times (default: atrium)");
-    options.text("-r,--recipe", "RECIPE", recipe_text,
-                 "the builder under the slider, and what is traced (default: evh(t=14) > bvh-binned-sah)");
-    options.integer("--first-t", first_t, 0, 40, "first position of the slider (default: 5)");
-    options.integer("--steps", step_count, 1, 41, "steps of the slider (default: 20)");
-    options.integer("--stops", stop_count, 1, 100000, "stops of the ray tracer (default: 200)");
-    options.choice("--shade", shading, kShadingNames, "what is traced, 1280x720 (default: primary)");
-    options.text("--json", "FILE", json, "write the rows as JSON (- for standard output)");
-    options.integer("--threads", threads, 1, 1024, "threads to build with (default: all)");
-    options.footer(
-        "interact: for each step of t the time from the slider to the boxes in OpenGL's buffer, nothing "
-        "known\n"
-        "beforehand; and for each stop of the progressive ray tracer the time until its last worker is "
-        "idle,\n"
-        "with the recipe and by brute force.\n\n" +
-        recipe_help());
-    if (!options.parse(arguments)) return ExitCode::Done;
-    if (std::ranges::find(kSuites, suite) == std::end(kSuites))
-        throw Error(ExitCode::WrongUsage, "there is no suite \"" + to_utf8(suite) + "\"; did you mean " +
-                                              nearest_word(suite, {std::begin(kSuites), std::end(kSuites)}) +
-                                              "?");
-    if (first_t + step_count - 1 > 40)
-        throw Error(ExitCode::WrongUsage, "--first-t and --steps lead beyond t = 40");
-    if (scenes.empty()) scenes.push_back("atrium");
-    const Recipe recipe = parse_recipe(recipe_text);
-    check_json_file(json);
-    const std::unique_ptr<ThreadLimit> limit = limit_threads(threads);
-
-    Report report{"bench interact", scenes, {}, {}};
-    const ExitCode result = for_each_scene(scenes, [&](const std::string& spec) {
-        Interact interact(spec, recipe, shading);
-        report.rows.push_back(interact.slider(first_t, step_count, bench::Memory::Shared));
-        report.rows.push_back(interact.slider(first_t, step_count, bench::Memory::None));
-        report.rows.push_back(interact.stops(recipe, stop_count));
-        report.rows.push_back(interact.stops(parse_recipe("none"), stop_count));
-    });
-    if (!report.rows.empty()) print_report(report, json);
-    return result;
+    const std::string first = arguments.empty() ? "" : arguments.front();
+    if (first == "--help" || first == "-h") {
+        print_help();
+        return ExitCode::Done;
+    }
+    std::vector<std::string> names;
+    for (const Command& suite : kSuites) {
+        if (first == suite.name) return suite.run(arguments.subspan(1));
+        names.emplace_back(suite.name);
+    }
+    if (first.empty() || first.starts_with("-"))
+        throw Error(ExitCode::WrongUsage, "SUITE is required (see boxwood bench --help)");
+    throw Error(ExitCode::WrongUsage, "there is no suite \"" + to_utf8(first) + "\"; did you mean " +
+                                          nearest_word(first, names) + "?");
 }
 
 }  // namespace boxwood

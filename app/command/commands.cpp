@@ -20,7 +20,7 @@ constexpr Command kCommands[] = {
     {"stress", "casts rays that are hard for floating point, judged by exact arithmetic", run_stress},
     {"cast", "casts the rays of a file", run_cast},
     {"check", "renders the sessions of a folder and compares them with their pictures", run_check},
-    {"bench", "measures how quickly the program answers", run_bench},
+    {"bench", "measures: how quickly the program answers, run time against error", run_bench},
     {"scenes", "lists the built-in scenes", run_scenes},
     {"list", "lists the stages of recipes with their parameters", run_list},
 };

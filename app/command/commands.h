@@ -25,6 +25,8 @@ std::span<const Command> commands();
 ExitCode run_program(Arguments arguments);
 
 ExitCode run_bench(Arguments arguments);
+ExitCode run_bench_error(Arguments arguments);
+ExitCode run_bench_interact(Arguments arguments);
 ExitCode run_cast(Arguments arguments);
 ExitCode run_check(Arguments arguments);
 ExitCode run_list(Arguments arguments);

@@ -7,6 +7,7 @@
 #include "app/command/commands.h"
 #include "app/command/shared.h"
 #include "bench/stress_cases.h"
+#include "bench/stress_failure.h"
 
 namespace boxwood {
 namespace {
@@ -64,7 +65,7 @@ std::string kinds_help() {
 ExitCode run_stress(Arguments arguments) {
     std::vector<std::string> texts;
     std::vector<std::string> mode_names;
-    std::string json;
+    std::string json, folder;
     int seed = 1, threads = 0, aimed_rays = 0;
     bool is_long = false;
     StressSettings settings;
@@ -81,6 +82,8 @@ ExitCode run_stress(Arguments arguments) {
                     "at least so many rays at vertices and edges of closed meshes, for each recipe and mode");
     options.flag("--long", is_long, "the same as --aimed-rays 1000000000");
     options.integer("--seed", seed, 0, 1000000000, "first seed of the cases (default: 1)");
+    options.text("--save", "DIR", folder,
+                 "write the first failing case of each row there, and print how to cast its ray again");
     options.text("--json", "FILE", json, "write the rows as JSON (- for standard output)");
     options.integer("--threads", threads, 1, 1024, "threads (default: all)");
     options.footer(
@@ -118,6 +121,8 @@ ExitCode run_stress(Arguments arguments) {
     for (const StressRow& row : rows) {
         report.rows.push_back(report_row(row));
         if (!row.first_failure.empty()) std::fprintf(stderr, "%s\n", row.first_failure.c_str());
+        if (row.failure && !folder.empty())
+            std::fprintf(stderr, "%s\n", bench::save_failure(*row.failure, folder).c_str());
     }
     print_report(report, json);
     return std::ranges::all_of(rows, &StressRow::holds) ? ExitCode::Done : ExitCode::CheckFailed;

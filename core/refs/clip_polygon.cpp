@@ -57,12 +57,13 @@ Point point(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 class Clipper {
 public:
-    Clipper(const Triangle& triangle, const Box& bounds, const Box& box)
+    Clipper(const Triangle& triangle, const Box& bounds, const Box& box, double bound_scale)
         : corners_{point(triangle.a), point(triangle.b), point(triangle.c)},
           least_(point(bounds.lower)),
           most_(point(bounds.upper)),
           lower_(point(box.lower)),
-          upper_(point(box.upper)) {}
+          upper_(point(box.upper)),
+          bound_scale_(bound_scale) {}
 
     Box bounds() {
         for (const Point& corner : corners_) add_corner(corner);
@@ -124,10 +125,10 @@ private:
 
     /// x = (a_x (b_k - K) + b_x (K - a_k)) / (b_k - a_k): both weights have the sign of the denominator.
     ///
-    /// Error in double, u = 2^-53: the weights and products round by u each, their sum by u; the denominator,
-    /// the sum of the rounded weights, is off by 2u, the division by u: 6u max(|a_x|, |b_x|) < 1e-15 times
-    /// that.
-    static Bracket edge_coordinate(const Point& a, const Point& b, size_t axis, float plane, size_t u) {
+    /// Error in double, u = 2^-53, M = max(|a_x|, |b_x|): the weights round by u each, and as they are the
+    /// same in both sums, x moves by at most 2u |a_x - b_x| f (1 - f) <= uM, f the place on the edge; the
+    /// products round by u times their share of M, the sums and the quotient by u|x| each: 2uM + 3u|x|.
+    Bracket edge_coordinate(const Point& a, const Point& b, size_t axis, float plane, size_t u) const {
         const float at_a = a[u], at_b = b[u];
         if (at_a == at_b) return {at_a, at_a};
         const bool ascends = a[axis] < b[axis];
@@ -136,7 +137,9 @@ private:
         const double weight_b = sign * (double(plane) - double(a[axis]));
         const double scale = weight_a + weight_b;
         const double x = (weight_a * double(at_a) + weight_b * double(at_b)) / scale;
-        const double error = 1e-15 * std::max(std::abs(double(at_a)), std::abs(double(at_b)));
+        constexpr double kUnit = 0x1p-53 * (1.0 + 0x1p-40);
+        const double largest = std::max(std::abs(double(at_a)), std::abs(double(at_b)));
+        const double error = bound_scale_ * kUnit * (2.0 * largest + 3.0 * std::abs(x));
         return bracket(x, error, scale, [&](float f) {
             ExactSum sum;
             sum.add_product(ascends ? ExactDifference(b[axis], plane) : ExactDifference(plane, b[axis]),
@@ -198,7 +201,7 @@ private:
             numerator += area * x;
             largest = std::max(largest, std::abs(x));
         }
-        const double error = (2.1 * total_error / std::abs(total) + 1e-15) * largest;
+        const double error = bound_scale_ * (2.1 * total_error / std::abs(total) + 1e-15) * largest;
         const Bracket x = bracket(numerator / total, error, std::abs(total), [&](float f) {
             ExactSum sum;
             for (size_t i = 0; i < 3; ++i)
@@ -218,18 +221,19 @@ private:
     std::array<Point, 3> corners_;
     Point least_, most_;   // the triangle's bounds
     Point lower_, upper_;  // the box
+    double bound_scale_;
     Point result_lower_{kInfinity, kInfinity, kInfinity};
     Point result_upper_{-kInfinity, -kInfinity, -kInfinity};
 };
 
 }  // namespace
 
-Box clip_bounds(const Triangle& triangle, const Box& box) {
+Box clip_bounds(const Triangle& triangle, const Box& box, double bound_scale) {
     const Box whole = triangle.bounds();
     if (box.contains(whole)) return whole;
     if (glm::any(glm::greaterThan(whole.lower, box.upper)) || glm::any(glm::lessThan(whole.upper, box.lower)))
         return {};
-    return Clipper(triangle, whole, box).bounds();
+    return Clipper(triangle, whole, box, bound_scale).bounds();
 }
 
 }  // namespace boxwood

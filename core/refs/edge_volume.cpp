@@ -45,11 +45,12 @@ double turn_to_largest_edge(Piece& piece) {
 ///
 /// u = 2^-53, M the largest |coordinate| of the triangle in an axis. A middle is a rounded sum and an exact
 /// half (a middle is a multiple of 2^(-149 - depth): nothing is lost to underflow), so a corner at depth d is
-/// off by at most the mean error of its two parents and u M: by d u M in all. It is exact where no sum needs
-/// more than 53 bits: with m the smallest nonzero |coordinate|, 2^e <= m < 2^(e + 1), all coordinates are
-/// multiples of 2^(e - 23) and the corners above depth d multiples of 2^(e - 22 - d), so sums up to 2M are
-/// exact where 2M <= 2^(e + 31 - d), which M <= m 2^(29 - d) implies. Moving a face by the bound rounds once
-/// more: d + 1.
+/// off by at most the mean error of its two parents and u M. A sum of two floats rounds only where one is
+/// below 2^-28 of the other, by u M, which is u M / 2 of their middle: by (d - 1/2) u M in all. It is exact
+/// where no sum needs more than 53 bits: with m the smallest nonzero |coordinate|, 2^e <= m < 2^(e + 1), all
+/// coordinates are multiples of 2^(e - 23) and the corners above depth d multiples of 2^(e - 22 - d), so sums
+/// up to 2M are exact where 2M <= 2^(e + 31 - d), which M <= m 2^(29 - d) implies. Moving a face by the bound
+/// rounds once more: d + 1/2.
 class OutwardBoxes {
 public:
     explicit OutwardBoxes(const Triangle& triangle) : bounds_(triangle.bounds()) {
@@ -65,7 +66,7 @@ public:
         Box box;
         for (int axis = 0; axis < 3; ++axis) {
             const bool is_exact = largest_[axis] <= std::ldexp(smallest_[axis], 29 - piece.depth);
-            const double error = is_exact ? 0.0 : (piece.depth + 1) * 0x1.01p-53 * largest_[axis];
+            const double error = is_exact ? 0.0 : (piece.depth + 0.5) * 0x1.01p-53 * largest_[axis];
             const double a = piece.a[axis], b = piece.b[axis], c = piece.c[axis];
             box.lower[axis] = round_down(std::min(a, std::min(b, c)) - error);
             box.upper[axis] = -round_down(-std::max(a, std::max(b, c)) - error);

@@ -165,7 +165,6 @@ ClosestHit<Mode::Fast>::ClosestHit(const Ray& ray)
     ky_ = (kz_ + 2) % 3;
     shear_x_ = ray.direction[kx_] / ray.direction[kz_];
     shear_y_ = ray.direction[ky_] / ray.direction[kz_];
-    inverse_z_ = 1.0f / ray.direction[kz_];
 }
 
 }  // namespace boxwood

@@ -91,20 +91,30 @@ private:
     uint32_t prim_ = kNoIndex;
 };
 
-/// Fast: float arithmetic. The same shear and edge functions with the sum's sign for the zero cases; t has a
-/// relative error of some units of 2^-24. Wrong answers occur only where a ray passes within rounding of an
-/// edge or two hits are within rounding of each other.
+/// Fast: float arithmetic for the shear, whose results are multiplied and summed in double, where products of
+/// two floats are exact. So what is hit is the triangle of the rounded vertices; wrong answers occur only
+/// where a ray passes within rounding of an edge or two hits are within rounding of each other.
 template <>
 class ClosestHit<Mode::Fast> : public StoppableSearch {
 public:
     explicit ClosestHit(const Ray& ray);
 
-    /// The float test may report a hit that misses the triangle by kMargin times the distance of its far
-    /// vertices, so that much is added to every box, and brute force and every structure see the same hits.
+    /// A hit that is reported may miss the triangle by kMargin times the distance of its farthest vertex, so
+    /// that much is added to every box, and brute force and every structure see the same hits.
+    ///
+    /// u = 2^-24, R the largest distance along an axis of the origin to a corner of the scene's box. A hit is
+    /// a convex combination of the rounded x = a_x - s a_z that is 0 (likewise y); q is the same combination
+    /// of the triangle's true vertices, p the ray's point at the reported t. Difference a_x, slope, product
+    /// and last difference of x round by at most uR + uR / 2 + uR + 2uR (|s| <= 1, and |s| = 1 is exact), a_z
+    /// is the one that t is made of, and t is rounded to float by uR: p and q are at most 5.5 uR apart in x
+    /// and y, 2 uR in z. Every set of boxes that contains the triangle has one with q, which the ray meets,
+    /// when widened, at t. The roundings in double are of order 2^-29 of that, underflow in x is below
+    /// 2^-148.
+    static constexpr double kMargin = 5.5 * 0x1p-24 * (1.0 + 0x1p-20);
     void enter_scene(const Vec3& lower, const Vec3& upper) {
         const DVec3 origin(ray_.origin);
         const DVec3 reach = glm::max(glm::abs(DVec3(lower) - origin), glm::abs(DVec3(upper) - origin));
-        slabs_.widen(kMargin * std::max({reach.x, reach.y, reach.z}));
+        slabs_.widen(kMargin * std::max({reach.x, reach.y, reach.z}) + 0x1p-148);
     }
     bool is_negative(int axis) const { return slabs_.is_negative(axis); }
     bool meets(const Vec3& lower, const Vec3& upper, double& entry) const {
@@ -136,26 +146,26 @@ private:
         const float ax = a[kx_] - shear_x_ * a[kz_], ay = a[ky_] - shear_y_ * a[kz_];
         const float bx = b[kx_] - shear_x_ * b[kz_], by = b[ky_] - shear_y_ * b[kz_];
         const float cx = c[kx_] - shear_x_ * c[kz_], cy = c[ky_] - shear_y_ * c[kz_];
-        const float u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
-        if ((u < 0.0f || v < 0.0f || w < 0.0f) && (u > 0.0f || v > 0.0f || w > 0.0f)) {
+        const double u = product(cx, by) - product(cy, bx), v = product(ax, cy) - product(ay, cx),
+                     w = product(bx, ay) - product(by, ax);
+        if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) {
             return std::numeric_limits<float>::quiet_NaN();
         }
         // A zero sum divides to NaN or infinity, which no range test passes but an infinite t_max: NaN then.
-        const float sum = u + v + w;
-        if (sum == 0.0f) return std::numeric_limits<float>::quiet_NaN();
-        return (u * a[kz_] + v * b[kz_] + w * c[kz_]) * inverse_z_ / sum;
+        const double sum = (u + v + w) * double(ray_.direction[kz_]);
+        if (sum == 0.0) return std::numeric_limits<float>::quiet_NaN();
+        return static_cast<float>((u * double(a[kz_]) + v * double(b[kz_]) + w * double(c[kz_])) / sum);
     }
+    /// Exact.
+    static double product(float a, float b) { return double(a) * double(b); }
 
-    static constexpr double kPad = 1.0 + 0x1p-20;  ///< 16 units of 2^-24: covers the error of t
-    /// 64 units of 2^-24: by the derivation above an edge function is off by 20 u X m, X the largest |x|,
-    /// |y|, which is a distance of 20 u m X / |edge| from the edge, where X <= 3 |edge| for a ray that passes
-    /// so close.
-    static constexpr double kMargin = 0x1p-18;
+    static constexpr double kPad =
+        1.0 + 0x1p-48;  ///< the widened box is met at t but for roundings in double
 
     Ray ray_;
     RaySlabs slabs_;
     int kx_, ky_, kz_;
-    float shear_x_, shear_y_, inverse_z_;
+    float shear_x_, shear_y_;
     double limit_;
     Hit hit_;
 };

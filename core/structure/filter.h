@@ -48,11 +48,13 @@ public:
 
     bool is_negative(int axis) const { return negative_[axis] != 0; }
 
-    /// From here on every box counts as larger by `margin` on each side.
+    /// From here on every box counts as larger by at least `margin` on each side: the moved origins are
+    /// rounded by less than 2^-52 of them.
     void widen(double margin) {
         for (int axis = 0; axis < 3; ++axis) {
-            near_origin_[axis] += is_negative(axis) ? -margin : margin;
-            far_origin_[axis] -= is_negative(axis) ? -margin : margin;
+            const double rounded_up = margin + 0x1p-52 * std::abs(near_origin_[axis]);
+            near_origin_[axis] += is_negative(axis) ? -rounded_up : rounded_up;
+            far_origin_[axis] -= is_negative(axis) ? -rounded_up : rounded_up;
         }
     }
 

@@ -1,0 +1,252 @@
+#!/usr/bin/env python3
+"""Draws what `boxwood bench error --json FILE` measured.
+
+    bench/plots.py FILE... -o FOLDER
+
+Pictures, each where the rows have what it needs:
+    error-speed.png    rays per second against largest error and wrong answers, with the Pareto front
+    error-time.png     build time + N rays against largest error
+    error-bytes.png    bytes against largest error
+    error-bound.png    printed bound against measured error: all points lie below the diagonal
+    error-scale.png    wrong answers against scale  (rows of --series scale)
+    error-offset.png   wrong answers against offset (rows of --series offset)
+
+Rows of several scenes are one point for each structure and contestant: geometric means of rates, times and bytes,
+the largest of errors. Needs matplotlib (Debian: python3-matplotlib).
+"""
+import argparse
+import json
+import math
+import os
+import sys
+
+COLORS = {"exact": "#0072b2", "fast": "#d55e00", "double": "#009e73"}  # told apart by all kinds of eyes
+MARKERS = "osD^vP*Xhd<>p"
+RAY_COUNTS = (1e5, 1e6, 1e7)
+
+
+def read_rows(files):
+    rows = []
+    for name in files:
+        with open(name, encoding="utf-8") as file:
+            rows += json.load(file)["rows"]
+    rows = [row for row in rows if "contestant" in row and "rays_kind" in row]
+    return [row for row in rows if row["t_error_ulps"] is not None]  # null: an infinite t for a finite one
+
+
+def geometric_mean(values):
+    values = [value for value in values if value is not None and value > 0]
+    return math.exp(sum(map(math.log, values)) / len(values)) if values else None
+
+
+def wrong_per_million(row):
+    return 1e6 * row["wrong"] / max(row["sample"], 1)
+
+
+def points_of(rows):
+    """One point for each kind of rays, recipe and contestant, over all scenes."""
+    groups = {}
+    for row in rows:
+        groups.setdefault((row["rays_kind"], row["recipe"], row["contestant"]), []).append(row)
+    points = []
+    for (rays_kind, recipe, contestant), group in groups.items():
+        rates = [row["mrays_per_s"] for row in group]
+        points.append({
+            "rays_kind": rays_kind,
+            "recipe": recipe,
+            "contestant": contestant,
+            "rate": geometric_mean(rates) if None not in rates else None,
+            "bytes": geometric_mean([row["bytes"] for row in group]),
+            "t_error": max(row["t_error_ulps"] for row in group),
+            "wrong": 1e6 * sum(row["wrong"] for row in group) / max(sum(row["sample"] for row in group), 1),
+            "total_ms": {count: geometric_mean([row["build_ms"] + count / row["mrays_per_s"] / 1e3
+                                                for row in group]) for count in RAY_COUNTS}
+                        if None not in rates else None,
+        })
+    return points
+
+
+def pareto(points, x_key, y_key, more_x):
+    """Points that no other beats in both: from the best x on, each with a smaller y than all before."""
+    front = []
+    for point in sorted(points, key=lambda p: (-p[x_key] if more_x else p[x_key], p[y_key])):
+        if not front or point[y_key] < front[-1][y_key]:
+            front.append(point)
+    return front
+
+
+class Plots:
+    def __init__(self, pyplot, rows, folder):
+        self.plt = pyplot
+        self.folder = folder
+        self.plain = [row for row in rows if "scale" not in row and "offset" not in row]
+        self.series = {key: [row for row in rows if key in row] for key in ("scale", "offset")}
+        self.points = points_of(self.plain)
+        self.kinds = sorted({row["rays_kind"] for row in rows}, reverse=True)
+        self.recipes = sorted({row["recipe"] for row in rows})
+        self.scene_count = len({row["scene"] for row in self.plain})
+
+    def marker(self, recipe):
+        return MARKERS[self.recipes.index(recipe) % len(MARKERS)]
+
+    def over_scenes(self, text):
+        return text if self.scene_count == 1 else f"{text}, geometric mean of {self.scene_count} scenes"
+
+    def scatter(self, axes, points, x_key, y_key):
+        for point in points:
+            axes.scatter(point[x_key], point[y_key], s=70, alpha=0.85, linewidths=0.6, edgecolors="white",
+                         color=COLORS.get(point["contestant"], "gray"), marker=self.marker(point["recipe"]))
+
+    def front(self, axes, points, x_key, y_key, more_x=False):
+        front = pareto(points, x_key, y_key, more_x)
+        axes.plot([p[x_key] for p in front], [p[y_key] for p in front], color="#555555", linewidth=1.2, zorder=0)
+
+    def decorate(self, axes, x_label, y_label, title, zero=None):
+        axes.set_xlabel(x_label)
+        axes.set_ylabel(y_label)
+        axes.set_title(title)
+        axes.grid(True, which="major", color="#dddddd", linewidth=0.6)
+        axes.set_axisbelow(True)
+        if y_label.endswith("ulps") and zero is None:
+            axes.set_yscale("log")
+            axes.set_ylim(min(axes.get_ylim()[0], 0.3), max(axes.get_ylim()[1], 20))
+        if zero is not None:  # logarithmic with a place for 0
+            axes.set_yscale("symlog", linthresh=zero)
+            axes.set_ylim(-zero / 3, max(axes.get_ylim()[1], 100 * zero))
+
+    def save(self, figure, name, recipes=None):
+        handles = [self.plt.Line2D([], [], linestyle="", marker="o", color=color, label=contestant)
+                   for contestant, color in COLORS.items()]
+        handles += [self.plt.Line2D([], [], linestyle="", marker=self.marker(recipe), color="gray", label=recipe)
+                    for recipe in (self.recipes if recipes is None else recipes)]
+        columns = 2 if len(handles) > 6 else 3
+        lines = -(-len(handles) // columns)
+        height = figure.get_figheight()
+        below = (0.32 + 0.22 * lines) / height
+        figure.tight_layout(rect=(0, below, 1, 1))
+        figure.legend(handles=handles, loc="lower center", ncol=columns, frameon=False, fontsize=9)
+        path = os.path.join(self.folder, name)
+        figure.savefig(path, dpi=120)
+        self.plt.close(figure)
+        print(path)
+
+    def panels(self, rows, columns, height=4.4):
+        return self.plt.subplots(rows, columns, squeeze=False,
+                                 figsize=(max(5.2 * columns, 7.0), height * rows + 1.6))
+
+    def speed(self):
+        points = [point for point in self.points if point["rate"] is not None]
+        if not points:
+            return
+        figure, axes = self.panels(2, len(self.kinds), 3.8)
+        for column, kind in enumerate(self.kinds):
+            own = [point for point in points if point["rays_kind"] == kind]
+            for row, (key, label, zero) in enumerate((("t_error", "largest error of t, ulps", None),
+                                                      ("wrong", "wrong answers per million rays", 10))):
+                self.scatter(axes[row][column], own, "rate", key)
+                self.front(axes[row][column], own, "rate", key, more_x=True)
+                self.decorate(axes[row][column], self.over_scenes("million rays per second"), label,
+                              f"{kind} rays", zero)
+        self.save(figure, "error-speed.png")
+
+    def time(self):
+        points = [point for point in self.points if point["total_ms"] is not None]
+        if not points:
+            return
+        figure, axes = self.panels(len(self.kinds), len(RAY_COUNTS), 3.8)
+        for row, kind in enumerate(self.kinds):
+            for column, count in enumerate(RAY_COUNTS):
+                own = [dict(point, total=point["total_ms"][count] / 1000) for point in points
+                       if point["rays_kind"] == kind]
+                self.scatter(axes[row][column], own, "total", "t_error")
+                self.front(axes[row][column], own, "total", "t_error")
+                self.decorate(axes[row][column], "build + rays, seconds", "largest error of t, ulps",
+                              f"{count:,.0f} {kind} rays")
+        if self.scene_count > 1:
+            figure.suptitle(f"Geometric mean of {self.scene_count} scenes")
+        self.save(figure, "error-time.png")
+
+    def bytes(self):
+        if not self.points:
+            return
+        figure, axes = self.panels(1, len(self.kinds))
+        for column, kind in enumerate(self.kinds):
+            own = [dict(point, mb=point["bytes"] / 1e6) for point in self.points if point["rays_kind"] == kind]
+            self.scatter(axes[0][column], own, "mb", "t_error")
+            self.front(axes[0][column], own, "mb", "t_error")
+            self.decorate(axes[0][column], self.over_scenes("megabytes"), "largest error of t, ulps",
+                          f"{kind} rays")
+        self.save(figure, "error-bytes.png")
+
+    def bound(self):
+        figure, axes = self.panels(1, 2, 5.0)
+        found = False
+        for column, (error, limit, what) in enumerate((("t_error_ulps", "t_bound_ulps", "largest"),
+                                                       ("t_error_p99_ulps", "t_bound_p99_ulps", "99th percentile"))):
+            rows = [row for row in self.plain + self.series["scale"] + self.series["offset"]
+                    if row.get(limit) and row.get(error)]
+            if not rows:
+                continue
+            found = True
+            for row in rows:
+                axes[0][column].scatter(row[limit], row[error], s=26, alpha=0.7, color=COLORS[row["contestant"]],
+                                        marker="o" if row["rays_kind"] == "primary" else "s")
+            ends = (min(row[error] for row in rows) / 2, max(row[limit] for row in rows) * 2)
+            axes[0][column].plot(ends, ends, color="#555555", linewidth=1.0)
+            axes[0][column].set_xscale("log")
+            axes[0][column].set_yscale("log")
+            self.decorate(axes[0][column], "printed bound, ulps", "measured error of t, ulps",
+                          f"{what} of each row (squares: diffuse)")
+        if found:
+            self.save(figure, "error-bound.png", recipes=[])
+        else:
+            self.plt.close(figure)
+
+    def failures(self, key, label):
+        rows = self.series[key]
+        if not rows:
+            return
+        figure, axes = self.panels(1, len(self.kinds))
+        for column, kind in enumerate(self.kinds):
+            for contestant, color in COLORS.items():
+                own = [row for row in rows if row["rays_kind"] == kind and row["contestant"] == contestant]
+                values = sorted({row[key] for row in own})
+                worst = [max(wrong_per_million(row) for row in own if row[key] == value) for value in values]
+                axes[0][column].plot(values, worst, color=color, marker="o", linewidth=1.4)
+            self.decorate(axes[0][column], label, "wrong answers per million rays, worst structure",
+                          f"{kind} rays", 10)
+            axes[0][column].set_xscale("log")
+        self.save(figure, f"error-{key}.png", recipes=[])
+
+    def draw(self):
+        self.speed()
+        self.time()
+        self.bytes()
+        self.bound()
+        self.failures("scale", "scale of the scene")
+        self.failures("offset", "offset of the scene, in extents")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("files", nargs="+", metavar="FILE", help="JSON of boxwood bench error")
+    parser.add_argument("-o", "--output", default=".", metavar="FOLDER", help="where the pictures go (default: .)")
+    arguments = parser.parse_args()
+    try:
+        import matplotlib
+    except ImportError:
+        print("plots.py: matplotlib is missing (Debian: apt-get install python3-matplotlib)", file=sys.stderr)
+        return 1
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+    rows = read_rows(arguments.files)
+    if not rows:
+        print("plots.py: no rows of `boxwood bench error` in the files", file=sys.stderr)
+        return 3
+    os.makedirs(arguments.output, exist_ok=True)
+    Plots(pyplot, rows, arguments.output).draw()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,92 @@
+#include "bench/ray_sets.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/base/rng.h"
+#include "core/measure/verify.h"
+#include "core/render/sampling.h"
+
+namespace boxwood::bench {
+
+namespace {
+
+class Hasher {
+public:
+    void add(uint32_t bits) { state_ = mix_bits((state_ ^ bits) + 0x9e3779b97f4a7c15ull); }
+    void add(float value) { add(std::bit_cast<uint32_t>(value)); }
+    void add(const Vec3& v) {
+        for (int axis = 0; axis < 3; ++axis) add(v[axis]);
+    }
+    uint64_t value() const { return state_; }
+
+private:
+    uint64_t state_ = 0;
+};
+
+double largest(const DVec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+/// From the hit point, moved off the plane by more than its rounding errors: t and the coordinates carry
+/// 2^-24 of their size each.
+Ray bounce(const Mesh& mesh, const Ray& ray, const Hit& hit, const Vec2& point) {
+    const Triangle triangle = mesh.triangle(hit.prim);
+    const DVec3 a(triangle.a), d(ray.direction);
+    DVec3 normal = glm::normalize(glm::cross(DVec3(triangle.b) - a, DVec3(triangle.c) - a));
+    if (glm::dot(normal, d) > 0.0) normal = -normal;
+    const DVec3 step = static_cast<double>(hit.t) * d;
+    const DVec3 place = DVec3(ray.origin) + step;
+    Ray result;
+    result.origin = Vec3(place + (largest(place) + largest(step)) * 0x1p-22 * normal);
+    result.direction = Vec3(cosine_direction(normal, point));
+    return result;
+}
+
+}  // namespace
+
+std::vector<Ray> primary_rays(const Camera& camera, size_t count) {
+    const int size = static_cast<int>(std::sqrt(static_cast<double>(count)));
+    const CameraFrame frame = camera_frame(camera, 1.0);
+    std::vector<Ray> rays;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) rays.push_back(camera_ray(frame, x + 0.5, y + 0.5, size, size));
+    return rays;
+}
+
+std::vector<Ray> diffuse_rays(const Structure& structure, const Mesh& mesh, std::span<const Ray> primary,
+                              size_t count, Task& task) {
+    const std::vector<Hit> hits = boxwood::closest_hits(structure, mesh, primary, Mode::Exact, task);
+    std::vector<Ray> rays;
+    if (std::ranges::none_of(hits, &Hit::is_hit)) return rays;
+    rays.reserve(count);
+    for (uint32_t round = 0; rays.size() < count; ++round) {
+        for (size_t i = 0; i < hits.size() && rays.size() < count; ++i) {
+            if (!hits[i].is_hit()) continue;
+            const Vec2 point = sequence_point(static_cast<uint32_t>(i), round, 1);
+            rays.push_back(bounce(mesh, primary[i], hits[i], point));
+        }
+    }
+    return rays;
+}
+
+uint64_t hash_of(std::span<const Ray> rays) {
+    Hasher hasher;
+    for (const Ray& ray : rays) {
+        hasher.add(ray.origin);
+        hasher.add(ray.t_min);
+        hasher.add(ray.direction);
+        hasher.add(ray.t_max);
+    }
+    return hasher.value();
+}
+
+uint64_t hash_of(std::span<const Hit> hits) {
+    Hasher hasher;
+    for (const Hit& hit : hits) {
+        hasher.add(hit.t);
+        hasher.add(hit.prim);
+    }
+    return hasher.value();
+}
+
+}  // namespace boxwood::bench
