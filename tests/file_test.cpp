@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "core/base/error.h"
+#include "support/temporary_folder.h"
 
 namespace boxwood {
 namespace {
@@ -15,11 +16,6 @@ namespace fs = std::filesystem;
 
 class WriteFile : public ::testing::Test {
 protected:
-    WriteFile() : folder_(fs::path(::testing::TempDir()) / "boxwood_file_test") {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-    ~WriteFile() override { fs::remove_all(folder_); }
     std::string at(const char* name) const { return (folder_ / name).string(); }
     static std::string read(const std::string& path) {
         std::ifstream file(path, std::ios::binary);
@@ -29,7 +25,8 @@ protected:
         return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
     }
 
-    fs::path folder_;
+    TemporaryFolder temporary_;
+    fs::path folder_ = temporary_.path();
 };
 
 TEST_F(WriteFile, ReplacesTheContentAndLeavesNothingBeside) {

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/scene/mesh_transform.h"
 #include "core/scene/subdivide.h"
+#include "support/temporary_folder.h"
 
 namespace boxwood {
 namespace {
@@ -32,21 +33,12 @@ std::string refusal(const std::string& spec) {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// A folder of its own for files of the test, removed at the end.
 class SceneSpecFiles : public testing::Test {
 protected:
-    void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("boxwood_scene_spec_" + std::to_string(reinterpret_cast<uintptr_t>(this)));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
     std::string write(const std::string& name) {
-        const std::string path = (folder_ / name).string();
-        std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-        return path;
+        return folder_.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     }
-    std::filesystem::path folder_;
+    TemporaryFolder folder_;
 };
 
 TEST(SceneSpec, TakesNameAndSuffixesApartInTheirOrder) {
@@ -78,7 +70,7 @@ TEST_F(SceneSpecFiles, FilesAreReadAndTransformed) {
 TEST_F(SceneSpecFiles, ABuiltInNameWinsOverAFileOfThatName) {
     const std::string path = write("cornell");
     const std::filesystem::path before = std::filesystem::current_path();
-    std::filesystem::current_path(folder_);
+    std::filesystem::current_path(folder_.path());
     const std::shared_ptr<const Scene> built_in = open("cornell"), file = open("./cornell");
     std::filesystem::current_path(before);
     EXPECT_EQ(built_in->mesh.triangle_count(), 32u);

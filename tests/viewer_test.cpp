@@ -9,6 +9,7 @@
 #include "core/base/file.h"
 #include "core/render/image_compare.h"
 #include "core/render/png.h"
+#include "support/temporary_folder.h"
 
 namespace boxwood {
 namespace {
@@ -114,13 +115,10 @@ TEST(ViewerFrame, TheMouseOrbitsAndZooms) {
 class CheckFolder : public testing::Test {
 protected:
     CheckFolder() {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
         write_session("\"leaves_above\": false, \"levels\": [1, 1]");
         EXPECT_EQ(check({"--update"}), ExitCode::Done);
         EXPECT_TRUE(fs::exists(folder_ + "/one.png"));
     }
-    ~CheckFolder() override { fs::remove_all(folder_); }
 
     void write_session(const std::string& rest) const {
         write_file_atomically(folder_ + "/one.json",
@@ -133,7 +131,8 @@ protected:
         arguments.insert(arguments.end(), options.begin(), options.end());
         return run_check(arguments);
     }
-    std::string folder_ = testing::TempDir() + "boxwood_check_test";
+    TemporaryFolder temporary_;
+    std::string folder_ = temporary_.path();
 };
 
 TEST_F(CheckFolder, ASessionIsTheSameAsItsPicture) {
@@ -169,8 +168,7 @@ TEST_F(CheckFolder, OneMovedBoxIsFound) {
                       {0, 0, right.width, right.height});
         return read_pixels(target);
     };
-    EXPECT_EQ(different_pixels(draw(*viewer.built()->levels), right), 0u)
-       ;
+    EXPECT_EQ(different_pixels(draw(*viewer.built()->levels), right), 0u);
     write_png(folder_ + "/one.png", draw(levels), print_session(*session, folder_));
     EXPECT_EQ(check(), ExitCode::CheckFailed);
     EXPECT_EQ(check({"--update"}), ExitCode::Done);

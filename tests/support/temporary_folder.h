@@ -22,6 +22,8 @@ public:
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
+    std::string path() const { return path_.string(); }
+
     /// Writes a file into it; returns the file's path.
     std::string write(const std::string& name, const std::string& bytes) const {
         const std::filesystem::path path = path_ / name;
