@@ -9,6 +9,7 @@
 #include "app/viewer/ui_context.h"
 #include "app/viewer/viewer.h"
 #include "core/base/file.h"
+#include "core/base/timer.h"
 
 namespace boxwood {
 namespace {
@@ -212,6 +213,21 @@ TEST_F(Panels, AFileThatChangedIsReadAgain) {
     EXPECT_EQ(mesh_of("no scene at all"), 2u) << "what cannot be read leaves the old scene";
     EXPECT_FALSE(viewer_.message().empty());
     std::filesystem::remove(path);
+}
+
+TEST_F(Panels, ACancelledBuildKeepsWhatIsShown) {
+    const auto built = viewer_.built();
+    viewer_.state.recipe = "evh(t=30) > bvh-sweep-sah";
+    viewer_.update(false);
+    EXPECT_TRUE(viewer_.busy());
+    viewer_.apply({CancelWork{}});
+    for (const Timer timer; viewer_.busy() && timer.milliseconds() < 5000.0;) viewer_.update(false);
+    EXPECT_FALSE(viewer_.busy()) << "nothing is under way after a cancel";
+    EXPECT_EQ(viewer_.built(), built);
+    EXPECT_TRUE(viewer_.panel_input(Vec2(-1.0f)).cancelled);
+    viewer_.apply({BuildAgain{}});
+    viewer_.wait();
+    EXPECT_EQ(print(viewer_.built()->recipe), viewer_.state.recipe);
 }
 
 TEST_F(Panels, LayoutLeavesTheWholeFrameToTheViewWherePanelsAreHidden) {

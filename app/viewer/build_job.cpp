@@ -41,7 +41,7 @@ std::optional<BuildResult> BuildJob::take() {
 BuildProgress BuildJob::progress() const {
     const std::scoped_lock lock(mutex_);
     BuildProgress progress;
-    progress.running = task_ != nullptr || waiting_.has_value();
+    progress.running = task_ || waiting_ || finished_;
     if (!progress.running) return progress;
     progress.sentence = task_ && !task_->stopped() ? sentence_ : "starting";
     progress.ms = since_.milliseconds();

@@ -39,7 +39,7 @@ struct BuildResult {
 
 /// What the job does now.
 struct BuildProgress {
-    bool running = false;
+    bool running = false;  ///< also while an answer waits to be taken
     std::string sentence;  ///< "building evh(t=14) > bvh-sweep-sah"
     double share = -1.0;   ///< of the stage that runs, 0 to 1; below 0: not known
     double ms = 0.0;       ///< since the request

@@ -71,6 +71,9 @@ void legend_window(const Context& context, const char* name, const ViewRect& vie
     ImGui::End();
 }
 
+/// In percent, small ones as powers of ten.
+std::string share_text(double share) { return number_text(100.0 * share, 2) + " %"; }
+
 Legend box_legend(const Context& context) {
     const ColorScale& colors = context.input.scale;
     const ValueScale& scale = colors.scale;
@@ -93,8 +96,8 @@ Legend box_legend(const Context& context) {
         if (has_node) value = pointed->references;
     } else {
         legend.title = "a box's own share of the SAH cost, logarithmic";
-        legend.lower = percent_text(lower, 1.0), legend.upper = percent_text(upper, 1.0);
-        legend.middle = percent_text(scale.value(0.5), 1.0);
+        legend.lower = share_text(lower), legend.upper = share_text(upper);
+        legend.middle = share_text(scale.value(0.5));
         if (has_node) value = pointed->sah_share;
     }
     if (has_node) {
@@ -102,7 +105,7 @@ Legend box_legend(const Context& context) {
         legend.pointed = std::string(pointed->leaf ? "leaf" : "node") + " at level " +
                          std::to_string(pointed->level) + ": " +
                          grouped(static_cast<uint64_t>(pointed->references)) + " references, " +
-                         percent_text(pointed->sah_share, 1.0) + " of cost";
+                         share_text(pointed->sah_share) + " of cost";
     }
     return legend;
 }

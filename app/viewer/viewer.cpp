@@ -58,8 +58,7 @@ Session Viewer::session() const {
 }
 
 bool Viewer::busy() const {
-    if (job_.progress().running || (shown_ && !satisfies(*shown_, wanted()) && build_error_.empty()))
-        return true;
+    if (job_.progress().running || asked_ != wanted()) return true;
     return tracing_ && !trace_paused_ && !tracer_->state().converged;
 }
 

@@ -60,13 +60,15 @@ void Window::wait_for_events(double patience) {
 
 void Window::look_at_file() {
     if (!watching_ || is_built_in(viewer_.state.scene)) return;
+    const std::string file = scene_file(viewer_.state.scene);
     std::error_code error;
-    const auto time = std::filesystem::last_write_time(scene_file(viewer_.state.scene), error);
-    if (error || time == file_time_) return;
-    if (file_time_ != std::filesystem::file_time_type{}) {
+    const auto time = std::filesystem::last_write_time(file, error);
+    if (error || (time == file_time_ && file == watched_file_)) return;
+    if (file == watched_file_) {
         viewer_.reload();
         frames_left_ = kFramesAfterInput;
     }
+    watched_file_ = file;
     file_time_ = time;
 }
 

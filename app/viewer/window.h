@@ -43,7 +43,8 @@ private:
     int frames_left_ = kFramesAfterInput;
     uint64_t frame_count_ = 0;
     bool watching_ = false;
-    std::filesystem::file_time_type file_time_{};
+    std::string watched_file_;
+    std::filesystem::file_time_type file_time_{};  ///< of the watched file, when it was last seen
     std::string title_;
 };
 
