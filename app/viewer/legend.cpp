@@ -106,6 +106,9 @@ Legend box_legend(const Context& context) {
                          std::to_string(pointed->level) + ": " +
                          grouped(static_cast<uint64_t>(pointed->references)) + " references, " +
                          share_text(pointed->sah_share) + " of cost";
+        if (pointed->hit_references > 1) {
+            legend.pointed += "\ntriangle in " + grouped(pointed->hit_references) + " references";
+        }
     }
     return legend;
 }
