@@ -14,6 +14,9 @@ constexpr ImGuiWindowFlags kFloating = ImGuiWindowFlags_NoDecoration | ImGuiWind
                                        ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
                                        ImGuiWindowFlags_NoInputs;
 
+constexpr float kLegendWidth = 200.0f;     // of the strip, in pixels at scale 1
+constexpr float kNarrowestLegend = 70.0f;  // a narrower view has none
+
 /// One legend: a strip of colours with the values at its ends and a mark.
 struct Legend {
     std::string title, lower, middle, upper;
@@ -24,8 +27,8 @@ struct Legend {
 };
 
 template <class Color>
-void strip(const Context& context, const Legend& legend, const Color& color) {
-    const float width = 200.0f * context.scale, height = 12.0f * context.scale;
+void strip(const Context& context, const Legend& legend, float width, const Color& color) {
+    const float height = 12.0f * context.scale;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const int count = legend.steps;
@@ -51,7 +54,7 @@ void strip(const Context& context, const Legend& legend, const Color& color) {
         ImGui::SameLine(left + share * (width - ImGui::CalcTextSize(text.c_str()).x));
         colored(context.colors.dim, text);
     };
-    place(legend.middle, 0.5f);
+    if (width >= kLegendWidth * context.scale) place(legend.middle, 0.5f);
     place(legend.upper, 1.0f);
 }
 
@@ -59,14 +62,19 @@ template <class Color>
 void legend_window(const Context& context, const char* name, const ViewRect& view, const Legend& legend,
                    const Color& color) {
     const float margin = 8.0f * context.scale;
+    const float room = view.width - 2.0f * (margin + ImGui::GetStyle().WindowPadding.x);
+    const float width = std::min(kLegendWidth * context.scale, room);
+    if (width < kNarrowestLegend * context.scale) return;
     ImGui::SetNextWindowPos({view.x + view.width - margin, view.y + view.height - margin}, ImGuiCond_Always,
                             {1.0f, 1.0f});
     ImGui::SetNextWindowBgAlpha(0.92f);
     ImGui::Begin(name, nullptr, kFloating);
     ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + room);
     ImGui::TextUnformatted(legend.title.c_str());
-    strip(context, legend, color);
+    strip(context, legend, width, color);
     if (!legend.pointed.empty()) ImGui::TextUnformatted(legend.pointed.c_str());
+    ImGui::PopTextWrapPos();
     ImGui::PopFont();
     ImGui::End();
 }
