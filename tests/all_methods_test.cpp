@@ -3,35 +3,11 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
-#include "core/catalog/pipeline.h"
+#include "support/all_recipes.h"
 #include "support/random_mesh.h"
 
 namespace boxwood {
 namespace {
-
-/// Every reference maker with every builder of the catalog, and every transform on what it takes.
-std::vector<std::string> all_recipes() {
-    std::vector<std::string> recipes;
-    for (const CatalogEntry& references : reference_catalog()) {
-        for (const CatalogEntry& builder : builder_catalog()) {
-            const std::string text = std::string(references.id) + " > " + builder.id;
-            recipes.push_back(text);
-            for (const CatalogEntry& transform : transform_catalog()) {
-                if (std::string(transform.input) == builder.output)
-                    recipes.push_back(text + " > " + transform.id);
-            }
-        }
-    }
-    return recipes;
-}
-
-Built run(const std::string& recipe, const Mesh& mesh) {
-    auto scene = std::make_shared<Scene>();
-    scene->mesh = mesh;
-    StageCache cache;
-    Task task;
-    return run_recipe(parse_recipe(recipe), scene, cache, task, /*with_levels=*/true).value();
-}
 
 class EveryMethod : public testing::TestWithParam<std::string> {};
 

@@ -14,37 +14,13 @@
 #include "core/refs/whole_boxes.h"
 #include "core/scene/load_file.h"
 #include "oracle/polygon.h"
+#include "support/triangle_soup.h"
 
 namespace boxwood {
 namespace {
 
 using oracle::exact_point;
 using oracle::ExactPoint;
-
-Mesh make_mesh(const std::vector<Triangle>& triangles) {
-    Mesh mesh;
-    for (const Triangle& t : triangles) {
-        const uint32_t first = static_cast<uint32_t>(mesh.positions.size());
-        mesh.positions.insert(mesh.positions.end(), {t.a, t.b, t.c});
-        mesh.triangles.push_back({first, first + 1, first + 2});
-    }
-    return mesh;
-}
-
-Vec3 random_point(Rng& rng, float lower, float upper) {
-    const float x = rng.next(lower, upper), y = rng.next(lower, upper), z = rng.next(lower, upper);
-    return {x, y, z};
-}
-
-std::vector<Triangle> random_triangles(size_t count, float lower, float upper, uint64_t seed) {
-    Rng rng(seed);
-    std::vector<Triangle> triangles;
-    for (size_t i = 0; i < count; ++i) {
-        const Vec3 a = random_point(rng, lower, upper), b = random_point(rng, lower, upper);
-        triangles.push_back({a, b, random_point(rng, lower, upper)});
-    }
-    return triangles;
-}
 
 References make(const Mesh& mesh, int t) {
     Task task;

@@ -2,34 +2,11 @@
 
 #include <cmath>
 
-#include "core/catalog/pipeline.h"
+#include "support/all_recipes.h"
 #include "support/random_mesh.h"
 
 namespace boxwood {
 namespace {
-
-std::vector<std::string> scaled_recipes() {
-    std::vector<std::string> recipes;
-    for (const CatalogEntry& references : reference_catalog()) {
-        for (const CatalogEntry& builder : builder_catalog()) {
-            const std::string text = std::string(references.id) + " > " + builder.id;
-            recipes.push_back(text);
-            for (const CatalogEntry& transform : transform_catalog()) {
-                if (std::string(transform.input) == builder.output)
-                    recipes.push_back(text + " > " + transform.id);
-            }
-        }
-    }
-    return recipes;
-}
-
-Built run(const std::string& recipe, const Mesh& mesh) {
-    auto scene = std::make_shared<Scene>();
-    scene->mesh = mesh;
-    StageCache cache;
-    Task task;
-    return run_recipe(parse_recipe(recipe), scene, cache, task, /*with_levels=*/true).value();
-}
 
 /// Without error: the coordinates are multiples of 2^-24 below 2, so that none is lost at 2^-100.
 Vec3 scaled(const Vec3& v, float factor) {
@@ -93,7 +70,7 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalog, Scaling, testing::ValuesIn(scaled_recipes()), test_name);
+INSTANTIATE_TEST_SUITE_P(Catalog, Scaling, testing::ValuesIn(all_recipes()), test_name);
 
 }  // namespace
 }  // namespace boxwood
