@@ -92,7 +92,7 @@ Hit DoubleTracer::closest_hit(const Mesh& mesh, const Ray& ray, std::vector<Stac
     uint32_t best_prim = kNoIndex;
     stack.clear();
     double entry;
-    count.visit_node();
+    count.visit_node(0);
     if (!nodes_.empty() && r.meets(nodes_[0].lower, nodes_[0].upper, limit, entry))
         stack.push_back({0, entry});
     while (!stack.empty()) {
@@ -115,7 +115,7 @@ Hit DoubleTracer::closest_hit(const Mesh& mesh, const Ray& ray, std::vector<Stac
         }
         const auto base = static_cast<std::ptrdiff_t>(stack.size());
         for (uint32_t child = node.first; child < end; ++child) {
-            count.visit_node();
+            count.visit_node(child);
             if (!r.meets(nodes_[child].lower, nodes_[child].upper, limit, entry)) continue;
             auto place = stack.end();
             while (place != stack.begin() + base && (place - 1)->entry < entry) --place;

@@ -35,6 +35,24 @@ TEST_P(EveryMethod, FindsTheSameHitsAsBruteForce) {
     }
 }
 
+TEST_P(EveryMethod, CountsItsVisitsNodeByNode) {
+    Task task;
+    const Mesh mesh = random_triangles(300, 0.1f, 1);
+    const Structure structure = run(GetParam(), mesh).structure;
+    const std::vector<Ray> rays = rays_for(mesh, 200, 6);
+    for (const Mode mode : {Mode::Exact, Mode::Fast}) {
+        std::vector<Hit> hits(rays.size());
+        std::vector<Count> counts(rays.size());
+        std::vector<uint32_t> visits(structure.list_nodes().nodes.size(), 0);
+        structure.closest_hits_counted(mesh, rays, hits, counts, mode, task);
+        structure.add_visits(mesh, rays, visits, mode, task);
+        uint64_t expected = 0, sum = 0;
+        for (const Count& count : counts) expected += count.nodes;
+        for (const uint32_t visit : visits) sum += visit;
+        EXPECT_EQ(sum, expected);
+    }
+}
+
 TEST_P(EveryMethod, MakesAValidHierarchyThatHoldsEveryPrimitive) {
     const Mesh mesh = random_triangles(1000, 0.2f, 2);
     EXPECT_EQ(check_nodes(run(GetParam(), mesh).levels->list, mesh.triangle_count()), "");

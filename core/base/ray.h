@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "core/base/vec.h"
 
@@ -38,7 +39,7 @@ struct Count {
     uint64_t exact = 0;  ///< decisions that the filter left to exact arithmetic
 
     static constexpr bool kCounts = true;
-    void visit_node() { ++nodes; }
+    void visit_node(uint32_t /*node*/) { ++nodes; }
     void test_primitive() { ++tests; }
     void decide_exactly() { ++exact; }
     Count& operator+=(const Count& other) {
@@ -49,10 +50,20 @@ struct Count {
     }
 };
 
+/// Counts the visits of each node of one structure, by its index in NodeList::nodes.
+struct NodeVisits {
+    std::span<uint32_t> visits;  ///< one for each node; a count stays at its largest value
+
+    static constexpr bool kCounts = true;
+    void visit_node(uint32_t node) { visits[node] += visits[node] < kNoIndex ? 1 : 0; }
+    void test_primitive() {}
+    void decide_exactly() {}
+};
+
 /// Compiles to nothing: for timed rays.
 struct NoCount {
     static constexpr bool kCounts = false;
-    void visit_node() {}
+    void visit_node(uint32_t /*node*/) {}
     void test_primitive() {}
     void decide_exactly() {}
 };

@@ -53,8 +53,10 @@ BruteForce BruteForceBuilder::build(const Mesh&, std::span<const PrimRef> refs, 
 
 template void BruteForce::closest_hit(const Mesh&, ClosestHit<Mode::Exact>&, Count&) const;
 template void BruteForce::closest_hit(const Mesh&, ClosestHit<Mode::Exact>&, NoCount&) const;
+template void BruteForce::closest_hit(const Mesh&, ClosestHit<Mode::Exact>&, NodeVisits&) const;
 template void BruteForce::closest_hit(const Mesh&, ClosestHit<Mode::Fast>&, Count&) const;
 template void BruteForce::closest_hit(const Mesh&, ClosestHit<Mode::Fast>&, NoCount&) const;
+template void BruteForce::closest_hit(const Mesh&, ClosestHit<Mode::Fast>&, NodeVisits&) const;
 template bool BruteForce::any_hit(const Mesh&, ClosestHit<Mode::Exact>&, Count&) const;
 template bool BruteForce::any_hit(const Mesh&, ClosestHit<Mode::Exact>&, NoCount&) const;
 template bool BruteForce::any_hit(const Mesh&, ClosestHit<Mode::Fast>&, Count&) const;

@@ -18,7 +18,7 @@ void traverse(const Bvh2& bvh, ClosestHit<mode>& ray, Counter& count, VisitLeaf&
     StackEntry stack[Bvh2::kMaxDepth];
     uint32_t size = 0;
     double entry;
-    count.visit_node();
+    count.visit_node(0);
     ray.enter_scene(bvh.nodes[0].lower, bvh.nodes[0].upper);
     if (!ray.meets(bvh.nodes[0].lower, bvh.nodes[0].upper, entry)) return;
     uint32_t node = 0;
@@ -29,8 +29,8 @@ void traverse(const Bvh2& bvh, ClosestHit<mode>& ray, Counter& count, VisitLeaf&
         } else {
             const uint32_t left = current.first, right = current.first + 1;
             double left_entry, right_entry;
-            count.visit_node();
-            count.visit_node();
+            count.visit_node(left);
+            count.visit_node(right);
             const bool meets_left = ray.meets(bvh.nodes[left].lower, bvh.nodes[left].upper, left_entry);
             const bool meets_right = ray.meets(bvh.nodes[right].lower, bvh.nodes[right].upper, right_entry);
             if (meets_left && meets_right) {
@@ -101,8 +101,10 @@ NodeList Bvh2::list_nodes() const {
 
 template void Bvh2::closest_hit(const Mesh&, ClosestHit<Mode::Exact>&, Count&) const;
 template void Bvh2::closest_hit(const Mesh&, ClosestHit<Mode::Exact>&, NoCount&) const;
+template void Bvh2::closest_hit(const Mesh&, ClosestHit<Mode::Exact>&, NodeVisits&) const;
 template void Bvh2::closest_hit(const Mesh&, ClosestHit<Mode::Fast>&, Count&) const;
 template void Bvh2::closest_hit(const Mesh&, ClosestHit<Mode::Fast>&, NoCount&) const;
+template void Bvh2::closest_hit(const Mesh&, ClosestHit<Mode::Fast>&, NodeVisits&) const;
 template bool Bvh2::any_hit(const Mesh&, ClosestHit<Mode::Exact>&, Count&) const;
 template bool Bvh2::any_hit(const Mesh&, ClosestHit<Mode::Exact>&, NoCount&) const;
 template bool Bvh2::any_hit(const Mesh&, ClosestHit<Mode::Fast>&, Count&) const;

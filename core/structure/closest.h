@@ -38,6 +38,11 @@ public:
 
     /// To be called once before the first box test, with the box of all primitives.
     void enter_scene(const Vec3&, const Vec3&) {}
+    /// What a structure whose regions are no boxes decides by; its own bounds stand there.
+    const Ray& ray() const { return ray_; }
+    const RaySlabs& slabs() const { return slabs_; }
+    /// Every region counts as larger by so much along each axis.
+    double margin() const { return 0.0; }
     bool is_negative(int axis) const { return slabs_.is_negative(axis); }
     bool meets(const Vec3& lower, const Vec3& upper, double& entry) const {
         return slabs_.meets(lower, upper, limit_, entry);
@@ -114,8 +119,12 @@ public:
     void enter_scene(const Vec3& lower, const Vec3& upper) {
         const DVec3 origin(ray_.origin);
         const DVec3 reach = glm::max(glm::abs(DVec3(lower) - origin), glm::abs(DVec3(upper) - origin));
-        slabs_.widen(kMargin * std::max({reach.x, reach.y, reach.z}) + 0x1p-148);
+        margin_ = kMargin * std::max({reach.x, reach.y, reach.z}) + 0x1p-148;
+        slabs_.widen(margin_);
     }
+    const Ray& ray() const { return ray_; }
+    const RaySlabs& slabs() const { return slabs_; }
+    double margin() const { return margin_; }
     bool is_negative(int axis) const { return slabs_.is_negative(axis); }
     bool meets(const Vec3& lower, const Vec3& upper, double& entry) const {
         return slabs_.meets(lower, upper, limit_, entry);
@@ -166,6 +175,7 @@ private:
     RaySlabs slabs_;
     int kx_, ky_, kz_;
     float shear_x_, shear_y_;
+    double margin_ = 0.0;  ///< see enter_scene
     double limit_;
     Hit hit_;
 };

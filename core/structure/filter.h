@@ -66,14 +66,21 @@ public:
         for (int axis = 0; axis < 3; ++axis) {
             const double near_plane = static_cast<double>((*planes[negative_[axis]])[axis]);
             const double far_plane = static_cast<double>((*planes[1 - negative_[axis]])[axis]);
-            const double near = (near_plane - near_origin_[axis]) * inverse_[axis];
-            const double far = (far_plane - far_origin_[axis]) * padded_inverse_[axis];
-            t0 = near > t0 ? near : t0;
-            t1 = far < t1 ? far : t1;
+            const double entry_here = near(axis, near_plane), exit_here = far(axis, far_plane);
+            t0 = entry_here > t0 ? entry_here : t0;
+            t1 = exit_here < t1 ? exit_here : t1;
         }
         entry = t0;
         return t0 <= t1;
     }
+
+    /// Lower bound (but for a factor of at most kPad) of the ray's parameter on the plane of a near face: it
+    /// is in the closed half-space beyond it at no smaller parameter. +-infinity or NaN where it is parallel.
+    double near(int axis, double plane) const { return (plane - near_origin_[axis]) * inverse_[axis]; }
+    /// Upper bound of the ray's parameter on the plane of a far face: at no larger parameter is it in the
+    /// closed half-space before it. Holds for planes that are not behind the origin.
+    double far(int axis, double plane) const { return (plane - far_origin_[axis]) * padded_inverse_[axis]; }
+    double t_min() const { return t_min_; }
 
 private:
     DVec3 near_origin_, far_origin_;

@@ -19,11 +19,12 @@ namespace boxwood {
 template <class S>
 concept AccelerationStructure = std::movable<S> &&
     requires(const S& s, const Mesh& mesh, ClosestHit<Mode::Exact>& exact, ClosestHit<Mode::Fast>& fast,
-             Count& count, NoCount& no_count) {
+             Count& count, NoCount& no_count, NodeVisits& visits) {
     { S::kFamily } -> std::convertible_to<const char*>;
     { s.closest_hit(mesh, exact, count) } -> std::same_as<void>;
     { s.closest_hit(mesh, exact, no_count) } -> std::same_as<void>;
     { s.closest_hit(mesh, fast, count) } -> std::same_as<void>;
+    { s.closest_hit(mesh, exact, visits) } -> std::same_as<void>;
     { s.any_hit(mesh, exact, count) } -> std::same_as<bool>;
     { s.list_nodes() } -> std::same_as<NodeList>;
     { s.byte_count() } -> std::same_as<size_t>;
@@ -54,6 +55,12 @@ public:
                   const Task& task) const {
         self_->any_hits(mesh, rays, occluded, mode, task);
     }
+    /// Adds to visits[n], for each ray, how often its closest hit visits node n of list_nodes().
+    void add_visits(const Mesh& mesh, std::span<const Ray> rays, std::span<uint32_t> visits, Mode mode,
+                    const Task& task) const {
+        self_->add_visits(mesh, rays, visits, mode, task);
+    }
+    /// Parents before children; node n is the one that NodeVisits counts under n.
     NodeList list_nodes() const { return self_->list_nodes(); }
     size_t byte_count() const { return self_->byte_count(); }
     const char* family() const { return self_->family(); }
@@ -72,6 +79,8 @@ private:
                                   const Task&) const = 0;
         virtual void any_hits(const Mesh&, std::span<const Ray>, std::span<uint8_t>, Mode,
                               const Task&) const = 0;
+        virtual void add_visits(const Mesh&, std::span<const Ray>, std::span<uint32_t>, Mode,
+                                const Task&) const = 0;
         virtual NodeList list_nodes() const = 0;
         virtual size_t byte_count() const = 0;
         virtual const char* family() const = 0;
@@ -125,6 +134,24 @@ private:
                 any_hits_in<Mode::Exact>(mesh, rays, occluded, task);
             } else {
                 any_hits_in<Mode::Fast>(mesh, rays, occluded, task);
+            }
+        }
+        template <Mode mode>
+        void add_visits_in(const Mesh& mesh, std::span<const Ray> rays, NodeVisits visits,
+                           const Task& task) const {
+            for (size_t i = 0; i < rays.size() && !task.stopped(); ++i) {
+                if (!is_valid(rays[i])) continue;
+                ClosestHit<mode> closest(rays[i]);
+                closest.watch(task);
+                structure.closest_hit(mesh, closest, visits);
+            }
+        }
+        void add_visits(const Mesh& mesh, std::span<const Ray> rays, std::span<uint32_t> visits, Mode mode,
+                        const Task& task) const override {
+            if (mode == Mode::Exact) {
+                add_visits_in<Mode::Exact>(mesh, rays, {visits}, task);
+            } else {
+                add_visits_in<Mode::Fast>(mesh, rays, {visits}, task);
             }
         }
         NodeList list_nodes() const override { return structure.list_nodes(); }
