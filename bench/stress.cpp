@@ -133,6 +133,12 @@ StressRow run_kind(const StressSettings& settings, const Recipe& recipe, const S
     return row;
 }
 
+/// Of the structure that the recipe makes.
+std::string family(const Recipe& recipe) {
+    const Stage& last = recipe.transforms.empty() ? recipe.builder : recipe.transforms.back();
+    return last.entry().output;
+}
+
 }  // namespace
 
 std::vector<StressRow> run_stress(const StressSettings& settings, Task& task) {
@@ -143,7 +149,10 @@ std::vector<StressRow> run_stress(const StressSettings& settings, Task& task) {
         for (const Mode mode : settings.modes) {
             for (const StressKind& kind : kinds) {
                 if (task.stopped()) return rows;
-                const uint64_t least_rays = kind.judge == Judge::MustHit ? settings.aimed_rays / 2 : 0;
+                const bool is_aimed =
+                    kind.judge == Judge::MustHit && mode == Mode::Exact &&
+                    (settings.aimed_family.empty() || family(recipe) == settings.aimed_family);
+                const uint64_t least_rays = is_aimed ? settings.aimed_rays / 2 : 0;
                 rows.push_back(run_kind(settings, recipe, kind, mode,
                                         settings.seconds / static_cast<double>(kinds.size()), least_rays,
                                         task));

@@ -17,10 +17,11 @@ namespace boxwood::bench {
 struct StressSettings {
     std::vector<Recipe> recipes;
     std::vector<Mode> modes{Mode::Exact, Mode::Fast};
-    double seconds =
-        10.0;  ///< for each recipe and mode, shared by the kinds; every kind is run once at least
-    uint64_t aimed_rays =
-        0;  ///< at least so many rays on closed meshes for each recipe and mode, whatever it takes
+    double seconds = 3.0;  ///< for each recipe and mode, shared by the kinds; every kind is run once at least
+    /// At least so many rays on closed meshes in exact mode, whatever it takes, for each recipe that makes a
+    /// structure of `aimed_family`; empty: for each recipe.
+    uint64_t aimed_rays = 0;
+    std::string aimed_family;
     uint64_t seed = 1;
     std::function<void(std::span<Hit>)> tamper;  ///< for tests: changes the answers before they are judged
 };

@@ -28,7 +28,7 @@ struct StressKind {
     const char* name;
     const char* what;
     Judge judge;
-    size_t ray_count;  ///< rays of one case
+    size_t ray_count;  ///< rays of one case, at most
     StressCase (*make)(uint64_t seed, size_t ray_count);
 };
 

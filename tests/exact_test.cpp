@@ -108,6 +108,65 @@ TEST(Exact, HasNoLeakAtTheVertexOfAFan) {
     }
 }
 
+/// The hit of two triangles tested in both orders, and how many decisions took exact arithmetic.
+struct Tie {
+    Hit hits[2];
+    uint64_t exact_count = 0;
+};
+Tie test_both_orders(const Ray& ray, const Triangle& first, const Triangle& second) {
+    const Mesh mesh;
+    Tie tie;
+    for (uint32_t order = 0; order < 2; ++order) {
+        Count count;
+        ClosestHit<Mode::Exact> closest(ray);
+        closest.test(order == 0 ? first : second, order, count);
+        closest.test(order == 0 ? second : first, 1 - order, count);
+        tie.hits[order] = closest.hit(mesh);
+        tie.exact_count += count.exact;
+    }
+    return tie;
+}
+
+Ray ray_from(const Vec3& origin, const Vec3& direction) {
+    Ray ray;
+    ray.origin = origin;
+    ray.direction = direction;
+    return ray;
+}
+
+TEST(Exact, CopiesAndFloorsTieWithoutExactArithmetic) {
+    const Triangle triangle{Vec3(0.1f, 0.2f, 1.0f), Vec3(2.0f, 0.3f, 1.7f), Vec3(0.4f, 2.0f, 1.3f)};
+    const Triangle copy{triangle.c, triangle.a, triangle.b};
+    const Tie copies =
+        test_both_orders(ray_from(Vec3(0.7f, 0.7f, 0.0f), Vec3(0.1f, 0.0f, 1.0f)), triangle, copy);
+    const Triangle floor{Vec3(0.0f, 0.0f, 1.1f), Vec3(2.0f, 0.0f, 1.1f), Vec3(0.0f, 2.0f, 1.1f)};
+    const Triangle other{Vec3(-1.0f, 0.0f, 1.1f), Vec3(2.0f, 0.5f, 1.1f), Vec3(0.0f, 3.0f, 1.1f)};
+    const Tie floors =
+        test_both_orders(ray_from(Vec3(0.7f, 0.7f, 0.0f), Vec3(0.1f, 0.0f, 1.0f)), floor, other);
+    for (const Tie& tie : {copies, floors}) {
+        EXPECT_EQ(tie.hits[0].prim, 0u);
+        EXPECT_EQ(tie.hits[1], tie.hits[0]);
+        EXPECT_EQ(tie.exact_count, 0u);
+    }
+}
+
+TEST(Exact, SharedEdgesAndVerticesTieOnlyWhereTheRayMeetsThem) {
+    // Two roofs over the edge from (-1, 0, 2) to (1, 0, 2), one of them twice as steep.
+    const Vec3 p(-1.0f, 0.0f, 2.0f), q(1.0f, 0.0f, 2.0f);
+    const Triangle flat{p, q, Vec3(0.0f, 2.0f, 3.0f)}, steep{p, q, Vec3(0.0f, 2.0f, 4.0f)};
+    const Triangle at_vertex{p, Vec3(3.0f, 1.0f, 5.0f), Vec3(3.0f, -1.0f, 5.0f)};
+    const auto lower_wins = [](const Ray& ray, const Triangle& first, const Triangle& second) {
+        const Tie tie = test_both_orders(ray, first, second);
+        return tie.hits[0].prim == 0 && tie.hits[1] == tie.hits[0];
+    };
+    // Through the edge and through the vertex: a tie. Beside them by one unit in the last place: the nearer.
+    EXPECT_TRUE(lower_wins(ray_from(Vec3(0.25f, 0.0f, 0.0f), Vec3(0.0f, 0.0f, 1.0f)), flat, steep));
+    EXPECT_TRUE(lower_wins(ray_from(Vec3(-1.0f, 0.0f, 0.0f), Vec3(0.0f, 0.0f, 1.0f)), flat, at_vertex));
+    const Ray beside = ray_from(Vec3(0.25f, 0x1p-140f, 0.0f), Vec3(0.0f, 0.0f, 1.0f));
+    for (const Hit& hit : test_both_orders(beside, flat, steep).hits) EXPECT_EQ(hit.prim, 0u);
+    for (const Hit& hit : test_both_orders(beside, steep, flat).hits) EXPECT_EQ(hit.prim, 1u);
+}
+
 TEST(RaySlabs, NeverMissABoxThatExactArithmeticMeets) {
     Rng rng(9);
     int meet_count = 0, too_many = 0;

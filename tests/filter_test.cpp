@@ -75,7 +75,7 @@ int wrong_edge_answers(int case_count, int& unknown_count) {
         Aimed aimed = aimed_at_edge(rng);
         aimed.ray.direction *= sign(rng);
         const EdgeFilter<Bounds> filter(aimed.ray);
-        const auto answer = filter.decide(aimed.triangle);
+        const auto answer = filter.decide(filter.functions(aimed.triangle));
         unknown_count += answer == EdgeFilter<Bounds>::Answer::Unknown;
         if (answer == EdgeFilter<Bounds>::Answer::Unknown) continue;
         wrong += oracle::hits_line(aimed.ray, aimed.triangle) != (answer == EdgeFilter<Bounds>::Answer::Hit);

@@ -18,7 +18,7 @@ TEST(Stress, NoWrongAnswerInExactModeForEveryBuilder) {
     StressSettings settings;
     for (const CatalogEntry& builder : builder_catalog())
         settings.recipes.push_back(parse_recipe(builder.id));
-    settings.seconds = 0.5;
+    settings.seconds = 0.1;
     Task task;
     uint64_t exact_decisions = 0;
     for (const StressRow& row : run_stress(settings, task)) {

@@ -8,6 +8,7 @@
 #include "app/command/shared.h"
 #include "bench/stress_cases.h"
 #include "bench/stress_failure.h"
+#include "core/bvh/bvh2.h"
 
 namespace boxwood {
 namespace {
@@ -77,9 +78,11 @@ ExitCode run_stress(Arguments arguments) {
                   "what to test; may be given several times (default: every exact row of the catalog)");
     options.texts("--mode", "MODE", mode_names, "exact or fast; may be given twice (default: both)");
     options.real("--seconds", settings.seconds, 0.01, 1e6,
-                 "time for each recipe and mode, shared by the kinds of cases (default: 10)");
-    options.integer("--aimed-rays", aimed_rays, 0, 2000000000,
-                    "at least so many rays at vertices and edges of closed meshes, for each recipe and mode");
+                 "time for each recipe and mode, shared by the kinds of cases (default: 3)");
+    options.integer(
+        "--aimed-rays", aimed_rays, 0, 2000000000,
+        "at least so many rays at vertices and edges of closed meshes, for each recipe in exact mode "
+        "(default: 10000000 for each binary BVH if no recipe is given, otherwise 0)");
     options.flag("--long", is_long, "the same as --aimed-rays 1000000000");
     options.integer("--seed", seed, 0, 1000000000, "first seed of the cases (default: 1)");
     options.text("--save", "DIR", folder,
@@ -108,6 +111,10 @@ ExitCode run_stress(Arguments arguments) {
     }
     settings.seed = static_cast<uint64_t>(seed);
     settings.aimed_rays = is_long ? 1000000000 : static_cast<uint64_t>(aimed_rays);
+    if (texts.empty() && settings.aimed_rays == 0) {
+        settings.aimed_rays = 10000000;
+        settings.aimed_family = Bvh2::kFamily;
+    }
     check_json_file(json);
     const std::unique_ptr<ThreadLimit> limit = limit_threads(threads);
 

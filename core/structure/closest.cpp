@@ -69,6 +69,43 @@ struct ExactT {
     double estimate() const { return numerator.estimate() / denominator.estimate(); }
 };
 
+/// Sign of the edge function d.(P x Q), P = p - o, Q = q - o: 0 where the ray's line meets that of the edge.
+int edge_sign(const Ray& ray, const Vec3& p, const Vec3& q) {
+    return dot(ray.direction, cross(difference(p, ray.origin), difference(q, ray.origin))).sign();
+}
+
+/// Whether the ray's line passes through p: whether d x (p - o) is zero.
+bool passes_through(const Ray& ray, const Vec3& p) {
+    const ExactVec3 to_p = difference(p, ray.origin);
+    const DVec3 d(ray.direction);
+    return (to_p.y * d.z - to_p.z * d.y).sign() == 0 && (to_p.z * d.x - to_p.x * d.z).sign() == 0 &&
+           (to_p.x * d.y - to_p.y * d.x).sign() == 0;
+}
+
+/// Whether two triangles that the ray hits are hit at the same t, where that can be seen without computing t:
+/// both lie in one axis plane (floors, walls), or they are copies of each other (a model that stands twice
+/// in a scene), or the ray meets the edge or the vertex that they share.
+bool is_plainly_a_tie(const Ray& ray, const Triangle& s, const Triangle& t) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const float plane = s.a[axis];
+        if (s.b[axis] == plane && s.c[axis] == plane && t.a[axis] == plane && t.b[axis] == plane &&
+            t.c[axis] == plane)
+            return true;
+    }
+    const Vec3* shared[3];
+    int shared_count = 0;
+    for (const Vec3* corner : {&s.a, &s.b, &s.c})
+        if (*corner == t.a || *corner == t.b || *corner == t.c) shared[shared_count++] = corner;
+    switch (shared_count) {
+        case 1:
+            return passes_through(ray, *shared[0]);
+        case 2:
+            return edge_sign(ray, *shared[0], *shared[1]) == 0;
+        default:
+            return shared_count == 3;
+    }
+}
+
 }  // namespace
 
 double estimate_t(const Ray& ray, const Triangle& triangle) { return ExactT(ray, triangle).estimate(); }
@@ -86,15 +123,17 @@ ClosestHit<Mode::Exact>::ClosestHit(const Ray& ray)
       t_lower_(kInfinity),
       t_upper_(kInfinity) {}
 
-bool ClosestHit<Mode::Exact>::decide_exactly(const Triangle& triangle) const {
-    // The edge functions d.(B x C), d.(C x A), d.(A x B): the closed triangle is hit if no two differ in
-    // sign; all zero means that its plane holds the ray.
-    const ExactVec3 a = difference(triangle.a, ray_.origin);
-    const ExactVec3 b = difference(triangle.b, ray_.origin);
-    const ExactVec3 c = difference(triangle.c, ray_.origin);
-    const int u = dot(ray_.direction, cross(b, c)).sign();
-    const int v = dot(ray_.direction, cross(c, a)).sign();
-    const int w = dot(ray_.direction, cross(a, b)).sign();
+bool ClosestHit<Mode::Exact>::decide_exactly(const Triangle& triangle,
+                                             const EdgeFilter<FilterBounds>::Functions& functions) const {
+    // The closed triangle is hit if no two edge functions differ in sign; all zero means that its plane holds
+    // the ray.
+    const auto sign = [&](double rounded, const Vec3& p, const Vec3& q) {
+        if (std::abs(rounded) > functions.bound) return (rounded > 0.0) == edges_.is_mirrored() ? -1 : 1;
+        return edge_sign(ray_, p, q);
+    };
+    const int u = sign(functions.u, triangle.b, triangle.c);
+    const int v = sign(functions.v, triangle.c, triangle.a);
+    const int w = sign(functions.w, triangle.a, triangle.b);
     const bool some_negative = u < 0 || v < 0 || w<0, some_positive = u> 0 || v > 0 || w > 0;
     return some_negative != some_positive;
 }
@@ -114,21 +153,31 @@ bool ClosestHit<Mode::Exact>::keep_if_nearer(const Triangle& triangle, uint32_t 
     if (t.upper < t_min || t.lower > t_max || t.lower > t_upper_) return true;
     const bool is_surely_in_range = t.lower >= t_min && t.upper <= t_max;
     const bool is_surely_nearer = t.upper < t_lower_;
-    if (!is_surely_in_range || !is_surely_nearer) {
+    bool is_filtered = true;
+    if (prim_ != kNoIndex && !is_surely_nearer) {
         if (prim == prim_) return true;  // a second reference to the best hit
+        if (is_plainly_a_tie(ray_, triangle, best_)) {
+            if (prim < prim_) {
+                prim_ = prim;
+                best_ = triangle;
+            }
+            return true;  // at the best hit's t, which is in range
+        }
+        const int order = ExactT(ray_, triangle).compare(ExactT(ray_, best_));
+        if (order > 0 || (order == 0 && prim > prim_)) return false;
+        is_filtered = false;
+    }
+    if (!is_surely_in_range) {
         const ExactT exact(ray_, triangle);
         if (exact.compare(t_min) < 0 || (!std::isinf(ray_.t_max) && exact.compare(t_max) > 0)) return false;
-        if (prim_ != kNoIndex) {
-            const int order = exact.compare(ExactT(ray_, best_));
-            if (order > 0 || (order == 0 && prim > prim_)) return false;
-        }
+        is_filtered = false;
     }
     best_ = triangle;
     prim_ = prim;
     t_lower_ = t.lower;
     t_upper_ = t.upper;
     limit_ = std::min(limit_, t.upper * RaySlabs::kPad);
-    return is_surely_in_range && is_surely_nearer;
+    return is_filtered;
 }
 
 Hit ClosestHit<Mode::Exact>::hit(const Mesh&) const {

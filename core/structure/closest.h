@@ -55,34 +55,33 @@ public:
     template <class Counter>
     void test(const Triangle& triangle, uint32_t prim, Counter& count) {
         count.test_primitive();
-        if (const Decision decision = decide(triangle); decision != Decision::Miss) {
-            if (decision == Decision::ExactHit) count.decide_exactly();
-            if (!keep_if_nearer(triangle, prim)) count.decide_exactly();
-        }
+        if (is_on_triangle(triangle, count) && !keep_if_nearer(triangle, prim)) count.decide_exactly();
     }
     /// Whether the triangle is hit in range; leaves the best hit as it is.
     template <class Counter>
     bool occludes(const Triangle& triangle, Counter& count) const {
         count.test_primitive();
-        return decide(triangle) != Decision::Miss && is_in_range(triangle);
+        return is_on_triangle(triangle, count) && is_in_range(triangle);
     }
     Hit hit(const Mesh& mesh) const;
 
 private:
-    enum class Decision { Miss, Hit, ExactHit };
-
-    Decision decide(const Triangle& triangle) const {
-        switch (edges_.decide(triangle)) {
+    /// Whether the ray's line hits the triangle.
+    template <class Counter>
+    bool is_on_triangle(const Triangle& triangle, Counter& count) const {
+        const EdgeFilter<FilterBounds>::Functions functions = edges_.functions(triangle);
+        switch (edges_.decide(functions)) {
             case EdgeFilter<FilterBounds>::Answer::Miss:
-                return Decision::Miss;
+                return false;
             case EdgeFilter<FilterBounds>::Answer::Hit:
-                return Decision::Hit;
+                return true;
             case EdgeFilter<FilterBounds>::Answer::Unknown:
                 break;
         }
-        return decide_exactly(triangle) ? Decision::ExactHit : Decision::Miss;
+        count.decide_exactly();
+        return decide_exactly(triangle, functions);
     }
-    bool decide_exactly(const Triangle& triangle) const;
+    bool decide_exactly(const Triangle& triangle, const EdgeFilter<FilterBounds>::Functions& functions) const;
     bool is_in_range(const Triangle& triangle) const;
     /// False if it took exact arithmetic.
     bool keep_if_nearer(const Triangle& triangle, uint32_t prim);

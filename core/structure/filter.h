@@ -111,6 +111,10 @@ template <class Bounds>
 class EdgeFilter {
 public:
     enum class Answer { Miss, Hit, Unknown };
+    /// Of the edges opposite to a, b, c; right in sign where the magnitude exceeds `bound`.
+    struct Functions {
+        double u, v, w, bound;
+    };
 
     explicit EdgeFilter(const Ray& ray) : origin_(ray.origin), kz_(largest_component(ray.direction)) {
         kx_ = (kz_ + 1) % 3;
@@ -118,9 +122,10 @@ public:
         const DVec3 d(ray.direction);
         shear_x_ = d[kx_] / d[kz_];
         shear_y_ = d[ky_] / d[kz_];
+        is_mirrored_ = d[kz_] > 0.0;
     }
 
-    Answer decide(const Triangle& triangle) const {
+    Functions functions(const Triangle& triangle) const {
         const DVec3 a = DVec3(triangle.a) - origin_, b = DVec3(triangle.b) - origin_,
                     c = DVec3(triangle.c) - origin_;
         const double ax = a[kx_] - shear_x_ * a[kz_], ay = a[ky_] - shear_y_ * a[kz_];
@@ -130,17 +135,24 @@ public:
             std::max({std::abs(ax), std::abs(ay), std::abs(bx), std::abs(by), std::abs(cx), std::abs(cy)}) +
             std::max({std::abs(a[kz_]), std::abs(b[kz_]), std::abs(c[kz_])});
         const double bound = Bounds::kEdge * m * m;
-        const double u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
-        const double least = std::min({u, v, w}), greatest = std::max({u, v, w});
-        if (least < -bound && greatest > bound) return Answer::Miss;
-        if (least > bound || greatest < -bound) return Answer::Hit;
+        return {cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax, bound};
+    }
+    static Answer decide(const Functions& f) {
+        const double least = std::min({f.u, f.v, f.w}), greatest = std::max({f.u, f.v, f.w});
+        if (least < -f.bound && greatest > f.bound) return Answer::Miss;
+        if (least > f.bound || greatest < -f.bound) return Answer::Hit;
         return Answer::Unknown;
     }
+    /// Whether the functions have the sign of -d.(P x Q), P and Q the edge's ends from the origin: with
+    /// (x, y, z) the sheared coordinates of P, P = x e_x + y e_y + (z / d_z) d, so d.(P x Q) = d_z (p_x q_y -
+    /// p_y q_x).
+    bool is_mirrored() const { return is_mirrored_; }
 
 private:
     DVec3 origin_;
     int kx_, ky_, kz_;
     double shear_x_, shear_y_;
+    bool is_mirrored_;
 };
 
 /// t of the ray and the triangle's plane, computed from exact terms.
