@@ -6,6 +6,7 @@
 
 #include "core/base/rng.h"
 #include "core/measure/verify.h"
+#include "core/render/leaving_ray.h"
 #include "core/render/sampling.h"
 
 namespace boxwood::bench {
@@ -25,21 +26,9 @@ private:
     uint64_t state_ = 0;
 };
 
-double largest(const DVec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-/// From the hit point, moved off the plane by more than its rounding errors: t and the coordinates carry
-/// 2^-24 of their size each.
 Ray bounce(const Mesh& mesh, const Ray& ray, const Hit& hit, const Vec2& point) {
-    const Triangle triangle = mesh.triangle(hit.prim);
-    const DVec3 a(triangle.a), d(ray.direction);
-    DVec3 normal = glm::normalize(glm::cross(DVec3(triangle.b) - a, DVec3(triangle.c) - a));
-    if (glm::dot(normal, d) > 0.0) normal = -normal;
-    const DVec3 step = static_cast<double>(hit.t) * d;
-    const DVec3 place = DVec3(ray.origin) + step;
-    Ray result;
-    result.origin = Vec3(place + (largest(place) + largest(step)) * 0x1p-22 * normal);
-    result.direction = Vec3(cosine_direction(normal, point));
-    return result;
+    const DVec3 normal = facing_normal(mesh.triangle(hit.prim), glm::normalize(DVec3(ray.direction)));
+    return leaving_ray(ray, hit, normal, cosine_direction(normal, point));
 }
 
 }  // namespace

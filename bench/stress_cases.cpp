@@ -5,6 +5,9 @@
 #include <map>
 
 #include "core/base/rng.h"
+#include "core/render/leaving_ray.h"
+#include "core/render/sampling.h"
+#include "core/structure/closest.h"
 
 namespace boxwood::bench {
 
@@ -331,6 +334,33 @@ StressCase closed_mesh(uint64_t seed, size_t ray_count) {
     return result;
 }
 
+/// Rays that leave a sphere where another ray from outside hit it, within half a turn of the normal: the
+/// sphere is convex, so they meet nothing.
+StressCase leaving(uint64_t seed, size_t ray_count) {
+    Rng rng(seed);
+    StressCase result;
+    result.mesh = sphere(2 + static_cast<int>(seed % 2));
+    const float scale = power_of_two(static_cast<int>(rng.next_index(61)) - 30);
+    const Vec3 offset = scale * random_point(rng, rng.next_index(2) == 0 ? 0.0f : 1000.0f);
+    for (Vec3& position : result.mesh.positions) position = scale * position + offset;
+    while (result.rays.size() < ray_count) {
+        const Vec3 target = aim_at(random_triangle_of(result.mesh, rng), rng);
+        const Ray ray = ray_to(offset + random_point(rng, 5.0f * scale), target);
+        ClosestHit<Mode::Exact> closest(ray);
+        NoCount no_count;
+        for (uint32_t prim = 0; prim < result.mesh.triangle_count(); ++prim)
+            closest.test(result.mesh.triangle(prim), prim, no_count);
+        const Hit hit = closest.hit(result.mesh);
+        if (!hit.is_hit()) continue;
+        const DVec3 direction = glm::normalize(DVec3(ray.direction));
+        const DVec3 normal = facing_normal(result.mesh.triangle(hit.prim), direction);
+        if (glm::dot(normal, DVec3(target - offset)) < 0.0) continue;  // from within
+        const float x = rng.next(), y = rng.next();
+        result.rays.push_back(leaving_ray(ray, hit, normal, cosine_direction(normal, Vec2(x, y))));
+    }
+    return result;
+}
+
 StressCase not_finite(uint64_t seed, size_t ray_count) {
     Rng rng(seed);
     StressCase result;
@@ -369,6 +399,7 @@ constexpr StressKind kKinds[] = {
     {"ranges", "ranges that end or begin at the hit, or just miss it", Judge::Oracle, 48, ranges},
     {"fans", "fans of 16 to 65,536 slivers, aimed at the hub and the spokes", Judge::MustHit, 40000, fans},
     {"closed-mesh", "a sphere from inside, aimed at vertices and edges", Judge::MustHit, 40000, closed_mesh},
+    {"leaving", "rays from where a sphere was hit, outwards", Judge::MustMiss, 200, leaving},
     {"not-finite", "NaN, infinity, no direction, an empty range", Judge::MustMiss, 1000, not_finite},
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/render/leaving_ray.h"
 #include "core/render/sampling.h"
 
 namespace boxwood {
@@ -19,34 +20,9 @@ constexpr double kFadeLength = 0.2;
 /// What is lit by the whole hemisphere.
 constexpr float kAoWhite = 0.85f;
 
-/// Unit normal of the triangle's plane, on the side that `direction` comes from. In double no float triangle
-/// over- or underflows.
-DVec3 facing_normal(const Triangle& triangle, const DVec3& direction) {
-    const DVec3 a(triangle.a);
-    const DVec3 normal = glm::cross(DVec3(triangle.b) - a, DVec3(triangle.c) - a);
-    const double length = std::sqrt(glm::dot(normal, normal));
-    if (!(length > 0.0)) return -direction;
-    return glm::dot(normal, direction) > 0.0 ? normal / -length : normal / length;
-}
-
 DVec3 unit_direction(const Ray& ray) {
     const DVec3 d(ray.direction);
     return d / std::sqrt(glm::dot(d, d));
-}
-
-double largest(const DVec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-/// Ray of length `radius` from the hit point, which is first moved off the plane by more than its rounding
-/// errors: t and the coordinates carry 2^-24 of their size each.
-Ray leaving_ray(const Ray& ray, const Hit& hit, const DVec3& normal, const DVec3& direction, double radius) {
-    const DVec3 step = static_cast<double>(hit.t) * DVec3(ray.direction);
-    const DVec3 point = DVec3(ray.origin) + step;
-    const double offset = (largest(point) + largest(step)) * 0x1p-22;
-    Ray leaving;
-    leaving.origin = Vec3(point + offset * normal);
-    leaving.direction = Vec3(direction);
-    leaving.t_max = static_cast<float>(radius);
-    return leaving;
 }
 
 }  // namespace
@@ -129,7 +105,9 @@ bool PixelTracer::shade_ao(uint32_t sample, PixelBatch& batch, const Task& task)
         for (uint32_t k = 0; k < rays_each; ++k) {
             const Vec2 point = sequence_point(batch.pixels[i], sample * rays_each + k, 1);
             const DVec3 direction = cosine_direction(normal, point);
-            batch.ao_rays.push_back(leaving_ray(batch.rays[i], hit, normal, direction, radius));
+            Ray leaving = leaving_ray(batch.rays[i], hit, normal, direction);
+            leaving.t_max = static_cast<float>(radius);
+            batch.ao_rays.push_back(leaving);
             batch.ao_owners.push_back(static_cast<uint32_t>(i));
         }
     }
