@@ -201,8 +201,7 @@ int fast_hits_outside(const std::function<Aimed(Rng&)>& make, double margin, int
         ClosestHit<Mode::Fast> closest(aimed.ray);
         NoCount count;
         closest.test(aimed.triangle, 0, count);
-        const Hit hit = closest.hit({});
-        if (!hit.is_hit()) continue;
+        if (std::isinf(closest.searched_t())) continue;
         ++hit_count;
         const Box box = aimed.triangle.bounds();
         const DVec3 origin(aimed.ray.origin);
@@ -211,7 +210,7 @@ int fast_hits_outside(const std::function<Aimed(Rng&)>& make, double margin, int
         RaySlabs slabs(aimed.ray);
         slabs.widen(margin * std::max({reach.x, reach.y, reach.z}));
         double entry;
-        outside += !slabs.meets(box.lower, box.upper, double(hit.t) * (1.0 + 0x1p-48), entry);
+        outside += !slabs.meets(box.lower, box.upper, double(closest.searched_t()) * (1.0 + 0x1p-48), entry);
     }
     return outside;
 }

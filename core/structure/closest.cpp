@@ -216,4 +216,18 @@ ClosestHit<Mode::Fast>::ClosestHit(const Ray& ray)
     shear_y_ = ray.direction[ky_] / ray.direction[kz_];
 }
 
+Hit ClosestHit<Mode::Fast>::hit(const Mesh& mesh) const {
+    if (!hit_.is_hit()) return hit_;
+    const Triangle triangle = mesh.triangle(hit_.prim);
+    const Interval on_plane = interval_of_t<FilterBounds>(ray_, triangle);
+    const double t = 0.5 * (on_plane.lower + on_plane.upper);
+    if (!std::isfinite(t)) return hit_;  // seen edge-on
+    const double origin = static_cast<double>(ray_.origin[kz_]), d = static_cast<double>(ray_.direction[kz_]);
+    const double at_a = (static_cast<double>(triangle.a[kz_]) - origin) / d,
+                 at_b = (static_cast<double>(triangle.b[kz_]) - origin) / d,
+                 at_c = (static_cast<double>(triangle.c[kz_]) - origin) / d;
+    const double on_triangle = std::clamp(t, std::min({at_a, at_b, at_c}), std::max({at_a, at_b, at_c}));
+    return {std::clamp(static_cast<float>(on_triangle), ray_.t_min, ray_.t_max), hit_.prim};
+}
+
 }  // namespace boxwood

@@ -145,7 +145,11 @@ public:
         const float t = intersect(triangle);
         return t >= ray_.t_min && t <= ray_.t_max;
     }
-    Hit hit(const Mesh&) const { return hit_; }
+    /// t is that of the triangle's plane in double, no farther than the triangle: the search's own t, which
+    /// decides what is nearest, carries the shear's roundings.
+    Hit hit(const Mesh& mesh) const;
+    /// t of the best hit as the search compares it; infinity for none.
+    float searched_t() const { return hit_.t; }
 
 private:
     /// t of the hit; NaN for a miss.
