@@ -6,6 +6,8 @@
 #include "core/bvh/binned_sah.h"
 #include "core/bvh/spatial_median.h"
 #include "core/bvh/sweep_sah.h"
+#include "core/kdtree/kd_median.h"
+#include "core/kdtree/kd_sah.h"
 #include "core/refs/early_split_clipping.h"
 #include "core/refs/edge_volume.h"
 #include "core/refs/whole_boxes.h"
@@ -25,6 +27,9 @@ constexpr CatalogEntry kBuilders[] = {
                        "Kay and Kajiya 1986; Ernst and Greiner 2007, 3.2"),
     row<BinnedSah>("bvh-binned-sah", "BVH, binned SAH", "Wald 2007, section 3"),
     row<SweepSah>("bvh-sweep-sah", "BVH, SAH sweep", "Wald, Boulos and Shirley 2007, section 4"),
+    row<KdMedian>("kd-median", "kd-tree, median", "Bentley 1975; Kaplan 1985; Kerbl, lecture, \"k-d tree\""),
+    row<KdSah>("kd-sah", "kd-tree, SAH by sorted events",
+               "Wald and Havran 2006, 4.3; Ernst and Greiner 2007, algorithm 3"),
 };
 
 constexpr std::array<CatalogEntry, 0> kTransforms = {};
