@@ -1,13 +1,12 @@
 #include "core/catalog/catalog.h"
 
-#include <array>
-
 #include "core/brute_force/brute_force.h"
 #include "core/bvh/binned_sah.h"
 #include "core/bvh/spatial_median.h"
 #include "core/bvh/sweep_sah.h"
 #include "core/kdtree/kd_median.h"
 #include "core/kdtree/kd_sah.h"
+#include "core/kdtree/ropes.h"
 #include "core/refs/early_split_clipping.h"
 #include "core/refs/edge_volume.h"
 #include "core/refs/whole_boxes.h"
@@ -32,7 +31,10 @@ constexpr CatalogEntry kBuilders[] = {
                "Wald and Havran 2006, 4.3; Ernst and Greiner 2007, algorithm 3"),
 };
 
-constexpr std::array<CatalogEntry, 0> kTransforms = {};
+constexpr CatalogEntry kTransforms[] = {
+    row<AddRopes>("ropes", "kd-tree with ropes, stackless",
+                  "Popov, Guenther, Seidel and Slusallek 2007, section 3"),
+};
 
 }  // namespace
 
