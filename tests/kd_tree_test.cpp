@@ -199,14 +199,14 @@ TEST(KdMedian, TakesAnotherAxisWhereThePlaneCutsEverything) {
     EXPECT_EQ(tree.nodes[0], KdTree::Node::inner(1, 1.5f, 2));
 }
 
-TEST(KdBudget, SharesOutAllOfItByReferences) {
-    const KdBudget budget{100};
+TEST(RefBudget, SharesOutAllOfItByReferences) {
+    const RefBudget budget{100};
     EXPECT_TRUE(budget.allows(60, 40));
     EXPECT_FALSE(budget.allows(61, 40));
     EXPECT_EQ(budget.left_share(10, 30).refs, 25u);
     EXPECT_EQ(budget.left_share(0, 30).refs, 0u);
     EXPECT_EQ(budget.left_share(100, 0).refs, 100u);
-    EXPECT_EQ((KdBudget{uint64_t{1} << 36}).left_share(1u << 30, 1u << 30).refs, uint64_t{1} << 35);
+    EXPECT_EQ((RefBudget{uint64_t{1} << 36}).left_share(1u << 30, 1u << 30).refs, uint64_t{1} << 35);
 }
 
 TEST(KdLimits, DepthIsBounded) {

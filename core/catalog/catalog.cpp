@@ -1,6 +1,7 @@
 #include "core/catalog/catalog.h"
 
 #include "core/brute_force/brute_force.h"
+#include "core/bsp/bsp_build.h"
 #include "core/bvh/binned_sah.h"
 #include "core/bvh/spatial_median.h"
 #include "core/bvh/sweep_sah.h"
@@ -26,6 +27,8 @@ constexpr CatalogEntry kBuilders[] = {
                        "Kay and Kajiya 1986; Ernst and Greiner 2007, 3.2"),
     row<BinnedSah>("bvh-binned-sah", "BVH, binned SAH", "Wald 2007, section 3"),
     row<SweepSah>("bvh-sweep-sah", "BVH, SAH sweep", "Wald, Boulos and Shirley 2007, section 4"),
+    row<BspSah>("bsp", "BSP, planes of triangles and axes",
+                "Fuchs, Kedem and Naylor 1980; Ize, Wald and Parker 2008; Kerbl, lecture"),
     row<KdMedian>("kd-median", "kd-tree, median", "Bentley 1975; Kaplan 1985; Kerbl, lecture, \"k-d tree\""),
     row<KdSah>("kd-sah", "kd-tree, SAH by sorted events",
                "Wald and Havran 2006, 4.3; Ernst and Greiner 2007, algorithm 3"),

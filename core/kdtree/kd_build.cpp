@@ -1,7 +1,6 @@
 #include "core/kdtree/kd_build.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/parallel.h"
 #include "core/refs/clip_polygon.h"
@@ -19,7 +18,7 @@ public:
                 const Task& task)
         : mesh_(mesh), limits_(limits), max_depth_(max_depth), choose_(choose), task_(task) {}
 
-    void build_node(std::vector<PrimRef> pieces, const Box& cell, uint32_t depth, KdBudget budget,
+    void build_node(std::vector<PrimRef> pieces, const Box& cell, uint32_t depth, RefBudget budget,
                     KdOutput& output) const {
         std::optional<KdSplit> split;
         if (pieces.size() > limits_.leaf_size && depth < max_depth_ && !task_.stopped())
@@ -31,8 +30,8 @@ public:
         const bool is_large = pieces.size() > kSerialCount;
         pieces = {};  // so that pieces of one node on each path are kept alone
 
-        const KdBudget left_budget = budget.left_share(left.size(), right.size());
-        const KdBudget right_budget{budget.refs - left_budget.refs};
+        const RefBudget left_budget = budget.left_share(left.size(), right.size());
+        const RefBudget right_budget{budget.refs - left_budget.refs};
         Box left_cell = cell, right_cell = cell;
         left_cell.upper[split->axis] = right_cell.lower[split->axis] = split->plane;
         const auto build_left = [&](KdOutput& out) {
@@ -85,17 +84,7 @@ private:
 }  // namespace
 
 uint32_t KdLimits::depth_for(size_t ref_count) const {
-    if (max_depth > 0) return std::min(max_depth, KdTree::kMaxDepth);
-    const double levels = 8.0 + 1.3 * std::log2(static_cast<double>(std::max<size_t>(ref_count, 1)));
-    return std::min(static_cast<uint32_t>(levels), KdTree::kMaxDepth);
-}
-
-KdBudget KdBudget::left_share(size_t left_count, size_t right_count) const {
-    BOXWOOD_ASSERT(allows(left_count, right_count));
-    const uint64_t sum = left_count + right_count;
-    if (sum == 0) return {refs / 2};
-    // Neither product overflows: both factors are below 2^31.
-    return {left_count + (refs - sum) / sum * left_count + (refs - sum) % sum * left_count / sum};
+    return max_depth > 0 ? std::min(max_depth, KdTree::kMaxDepth) : default_depth(ref_count);
 }
 
 KdParts cut_piece(const Mesh& mesh, const PrimRef& piece, const KdSplit& split, bool clip) {

@@ -5,6 +5,7 @@
 
 #include "core/kdtree/kd_tree.h"
 #include "core/refs/prim_ref.h"
+#include "core/structure/ref_budget.h"
 
 namespace boxwood {
 
@@ -36,19 +37,8 @@ struct KdLimits {
     uint32_t max_depth = 0;  ///< levels below the root; 0: 8 + 1.3 log2 of the references
     uint32_t budget = 16;    ///< references of all leaves at most, for each one that the tree is built over
 
-    /// The levels that a tree over so many references gets, at most KdTree::kMaxDepth. Pharr, Jakob,
-    /// Humphreys, "Physically Based Rendering", 3rd edition 2016, section 4.4.1, for max_depth = 0.
+    /// The levels that a tree over so many references gets, at most KdTree::kMaxDepth.
     uint32_t depth_for(size_t ref_count) const;
-};
-
-/// References that the leaves below a node may hold in all. It is shared out among the children by their
-/// references, so that the tree does not depend on the order in which nodes are built.
-struct KdBudget {
-    uint64_t refs;
-
-    bool allows(size_t left_count, size_t right_count) const { return left_count + right_count <= refs; }
-    /// What the left child gets of it; the right one gets the rest.
-    KdBudget left_share(size_t left_count, size_t right_count) const;
 };
 
 /// The boxes of both parts of a piece that has points on both sides of the plane.

@@ -17,7 +17,7 @@ struct Work {
     KdEvents events;
     Box cell;
     uint32_t depth = 0;
-    KdBudget budget{};
+    RefBudget budget{};
 };
 
 /// A piece's places in its node's children; kNoIndex where it is absent or has been cut.
