@@ -162,6 +162,9 @@ private:
         for (const BspPlane& plane : draw_candidates(work, rng)) {
             const PlaneValue value(plane);
             const Counts counts = count_sides(sample, value);
+            // The parts' areas sum to more than the cell's, and neither is larger than that.
+            const double least = double(params_.traversal_cost) + std::min(counts.left, counts.right);
+            if (least * area >= best_cost) continue;
             const ConvexCell::Areas areas = work.cell.cut_areas(value);
             if (!(areas.left > 0.0 && areas.right > 0.0)) continue;
             const bool planar_left = areas.left <= areas.right;

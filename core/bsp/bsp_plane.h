@@ -39,6 +39,10 @@ public:
     double error_at(const DVec3& point) const {
         return kUnit * glm::dot(glm::abs(point - origin_), normal_abs_);
     }
+    /// At least error_at of every point whose coordinates are at most `reach` in magnitude.
+    double error_within(double reach) const {
+        return kUnit * glm::dot(reach + glm::abs(origin_), normal_abs_) * (1.0 + kUnit);
+    }
     double error_along(const DVec3& direction) const {
         return kUnit * glm::dot(glm::abs(direction), normal_abs_);
     }

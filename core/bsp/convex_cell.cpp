@@ -73,47 +73,50 @@ ConvexCell::ConvexCell(const Box& box) {
                 face.push_back(corner);
             }
             if (upper == 0) std::reverse(face.begin(), face.end());  // seen from outside, counterclockwise
-            faces_.push_back(std::move(face));
+            add_face(std::move(face));
         }
     }
 }
 
-int ConvexCell::side(double h, const PlaneValue& plane, const DVec3& corner) const {
-    const double tolerance = plane.error_at(corner) + kTolerance * reach_ * plane.slope();
-    return h > tolerance ? 1 : h < -tolerance ? -1 : 0;
+double ConvexCell::tolerance(const PlaneValue& plane) const {
+    return plane.error_within(reach_) + kTolerance * reach_ * plane.slope();
 }
 
-ConvexCell::Polygon ConvexCell::part_of(const Polygon& face, const PlaneValue& plane, int sign,
+void ConvexCell::add_face(Polygon face) {
+    areas_.push_back(area_vector(face));
+    faces_.push_back(std::move(face));
+}
+
+ConvexCell::Polygon ConvexCell::part_of(const Polygon& face, const PlaneValue& plane, int side,
                                         Polygon& in_plane) const {
+    const double limit = tolerance(plane);
     Polygon part;
+    bool has_inside = false;
     for (size_t i = 0; i < face.size(); ++i) {
         const DVec3 &p = face[i], &q = face[(i + 1) % face.size()];
-        const int p_side = sign * side(plane.at(p), plane, p), q_side = sign * side(plane.at(q), plane, q);
-        if (p_side >= 0) part.push_back(p);
-        if (p_side == 0) in_plane.push_back(p);
-        if (p_side * q_side < 0) {
+        const double h_p = double(side) * plane.at(p), h_q = double(side) * plane.at(q);
+        if (h_p >= -limit) part.push_back(p);
+        if (std::abs(h_p) <= limit) in_plane.push_back(p);
+        has_inside = has_inside || h_p > limit;
+        if ((h_p > limit && h_q < -limit) || (h_p < -limit && h_q > limit)) {
             part.push_back(crossing(plane, p, q));
             in_plane.push_back(part.back());
         }
     }
-    // A face that only touches the plane has no part on the other side.
-    const bool has_inside = std::any_of(part.begin(), part.end(), [&](const DVec3& corner) {
-        return sign * side(plane.at(corner), plane, corner) > 0;
-    });
     if (!has_inside) part.clear();
     return part;
 }
 
-ConvexCell ConvexCell::part_of(const PlaneValue& plane, int sign) const {
+ConvexCell ConvexCell::part_of(const PlaneValue& plane, int side) const {
     ConvexCell result;
     result.reach_ = reach_;
     Polygon cap;
     for (const Polygon& face : faces_) {
-        Polygon part = part_of(face, plane, sign, cap);
-        if (part.size() >= 3) result.faces_.push_back(std::move(part));
+        Polygon part = part_of(face, plane, side, cap);
+        if (part.size() >= 3) result.add_face(std::move(part));
     }
-    cap = in_order(std::move(cap), -double(sign) * plane.normal());
-    if (!cap.empty()) result.faces_.push_back(std::move(cap));
+    cap = in_order(std::move(cap), -double(side) * plane.normal());
+    if (!cap.empty()) result.add_face(std::move(cap));
     return result;
 }
 
@@ -123,23 +126,31 @@ std::pair<ConvexCell, ConvexCell> ConvexCell::cut(const PlaneValue& plane) const
 
 ConvexCell::Areas ConvexCell::cut_areas(const PlaneValue& plane) const {
     // The area vectors of a closed surface sum to zero: what is missing of one part is the cut's area.
-    double sizes[2] = {0.0, 0.0};
-    DVec3 sums[2] = {DVec3(0.0), DVec3(0.0)};
+    const double limit = tolerance(plane);
+    double left = 0.0, right = 0.0;
+    DVec3 missing(0.0);
     Polygon ignored;
-    for (const Polygon& face : faces_) {
-        for (const size_t i : {size_t{0}, size_t{1}}) {
-            const DVec3 area = area_vector(part_of(face, plane, i == 0 ? -1 : 1, ignored));
-            sizes[i] += glm::length(area);
-            sums[i] += area;
+    for (size_t i = 0; i < faces_.size(); ++i) {
+        bool is_left = false, is_right = false;
+        for (const DVec3& corner : faces_[i]) {
+            const double h = plane.at(corner);
+            is_left = is_left || h < -limit;
+            is_right = is_right || h > limit;
         }
+        DVec3 left_area(0.0);
+        if (is_left) left_area = is_right ? area_vector(part_of(faces_[i], plane, -1, ignored)) : areas_[i];
+        left += glm::length(left_area);
+        missing += left_area;
+        if (is_right) right += glm::length(areas_[i] - left_area);
     }
-    if (!(sizes[0] > 0.0 && sizes[1] > 0.0)) return {};
-    return {0.25 * (sizes[0] + glm::length(sums[0])), 0.25 * (sizes[1] + glm::length(sums[1]))};
+    if (!(left > 0.0 && right > 0.0)) return {};
+    const double cut = glm::length(missing);
+    return {0.25 * (left + cut), 0.25 * (right + cut)};
 }
 
 double ConvexCell::half_area() const {
     double sum = 0.0;
-    for (const Polygon& face : faces_) sum += glm::length(area_vector(face));
+    for (const DVec3& area : areas_) sum += glm::length(area);
     return 0.25 * sum;
 }
 
@@ -147,7 +158,7 @@ double ConvexCell::volume() const {
     if (faces_.empty()) return 0.0;
     const DVec3 apex = faces_[0][0];
     double sum = 0.0;
-    for (const Polygon& face : faces_) sum += glm::dot(area_vector(face), face[0] - apex);
+    for (size_t i = 0; i < faces_.size(); ++i) sum += glm::dot(areas_[i], faces_[i][0] - apex);
     return sum / 6.0;
 }
 

@@ -34,14 +34,17 @@ public:
     const std::vector<Polygon>& faces() const { return faces_; }
 
 private:
-    /// 1 right, -1 left, 0 in the plane.
-    int side(double h, const PlaneValue& plane, const DVec3& corner) const;
-    /// The part of a face on one side; adds the corners of the part that lie in the plane.
-    Polygon part_of(const Polygon& face, const PlaneValue& plane, int sign, Polygon& in_plane) const;
-    ConvexCell part_of(const PlaneValue& plane, int sign) const;
+    /// The part of a face on one side of a plane (-1 left, 1 right), adds the corners
+    /// that lie in the plane. Empty if no corner is strictly on that side.
+    Polygon part_of(const Polygon& face, const PlaneValue& plane, int side, Polygon& in_plane) const;
+    ConvexCell part_of(const PlaneValue& plane, int side) const;
+    void add_face(Polygon face);
+    /// |h| up to this counts as 0.
+    double tolerance(const PlaneValue& plane) const;
 
     std::vector<Polygon> faces_;
-    double reach_ = 0.0;  ///< largest |coordinate| of the root's box
+    std::vector<DVec3> areas_;  ///< twice the faces' area vectors
+    double reach_ = 0.0;        ///< largest |coordinate| of the root's box
 };
 
 }  // namespace boxwood
