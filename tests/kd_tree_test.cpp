@@ -10,28 +10,12 @@
 #include "core/kdtree/kd_sah.h"
 #include "oracle/polygon.h"
 #include "support/all_recipes.h"
+#include "support/lattice.h"
 #include "support/random_mesh.h"
 #include "support/shared_scene.h"
-#include "support/triangle_soup.h"
 
 namespace boxwood {
 namespace {
-
-/// Corners on whole numbers from 0 to 4: many triangles lie in planes, touch them, or end at them.
-Mesh lattice_mesh(size_t count, uint64_t seed) {
-    Rng rng(seed);
-    std::vector<Triangle> triangles;
-    const auto point = [&] {
-        Vec3 p;
-        for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(rng.next_index(5));
-        return p;
-    };
-    while (triangles.size() < count) {
-        const Vec3 a = point(), b = point(), c = point();
-        if (glm::cross(b - a, c - a) != Vec3(0.0f)) triangles.push_back({a, b, c});
-    }
-    return make_mesh(triangles);
-}
 
 /// Every point of a triangle lies in a leaf that holds it, and every leaf that holds it touches it.
 void expect_exact_references(const std::string& recipe, const Mesh& mesh) {
@@ -49,9 +33,9 @@ void expect_exact_references(const std::string& recipe, const Mesh& mesh) {
 }
 
 TEST(KdTree, LeavesHoldTheTrianglesThatTouchThemAndMissNone) {
-    Mesh far = random_triangles(40, 0.3f, 4);
+    Mesh far = random_triangles(20, 0.3f, 4);
     for (Vec3& position : far.positions) position += Vec3(1e6f, -1e6f, 1e5f);
-    for (const Mesh& mesh : {random_triangles(60, 0.5f, 3), lattice_mesh(60, 4), far}) {
+    for (const Mesh& mesh : {random_triangles(30, 0.5f, 3), lattice_mesh(30, 4), far}) {
         for (const char* references : {"whole", "esc(s=4)", "evh(t=6)"}) {
             for (const char* builder : {"kd-sah(traversal-cost=0.1)", "kd-median(leaf-size=1)",
                                         "kd-median(leaf-size=1, middle=references)"})
@@ -63,20 +47,7 @@ TEST(KdTree, LeavesHoldTheTrianglesThatTouchThemAndMissNone) {
 TEST(KdTree, FindsTheSameHitsAsBruteForceThroughWallsEdgesAndCornersOfCells) {
     Task task;
     const Mesh mesh = lattice_mesh(200, 5);
-    Rng rng(6);
-    std::vector<Ray> rays;
-    const auto half = [&] { return 0.5f * static_cast<float>(rng.next_index(11)) - 0.5f; };
-    for (int i = 0; i < 4000; ++i) {
-        Ray ray;
-        ray.origin = Vec3(half(), 0.0f, 0.0f);
-        ray.origin.y = half();
-        ray.origin.z = half();
-        for (int axis = 0; axis < 3; ++axis)
-            ray.direction[axis] = static_cast<float>(rng.next_index(5)) - 2.0f;
-        if (i % 3 == 0) ray.direction[static_cast<int>(rng.next_index(3))] = -0.0f;
-        if (i % 5 == 0) ray.direction[static_cast<int>(rng.next_index(3))] = 0x1p-140f;
-        rays.push_back(ray);
-    }
+    const std::vector<Ray> rays = lattice_rays(4000, 6);
     const Structure reference = run("none", mesh).structure;
     for (const char* recipe : {"kd-sah", "kd-sah(traversal-cost=0)", "kd-median(leaf-size=1)"}) {
         const Structure structure = run(recipe, mesh).structure;

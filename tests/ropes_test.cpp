@@ -7,6 +7,7 @@
 #include "core/kdtree/kd_median.h"
 #include "core/kdtree/kd_sah.h"
 #include "support/all_recipes.h"
+#include "support/lattice.h"
 #include "support/random_mesh.h"
 
 namespace boxwood {
@@ -15,33 +16,6 @@ namespace {
 RopedKdTree rope(const Mesh& mesh, const KdTree& tree) {
     Task task;
     return AddRopes{}.apply(mesh, whole_refs(mesh), tree, task);
-}
-
-/// Whole numbers from 0 to 4 as corners, so that planes, walls, edges and corners of cells are whole too.
-Mesh lattice_mesh(size_t count, uint64_t seed) {
-    Rng rng(seed);
-    Mesh mesh = random_triangles(static_cast<uint32_t>(count), 0.5f, seed);
-    for (Vec3& position : mesh.positions)
-        for (int axis = 0; axis < 3; ++axis) position[axis] = static_cast<float>(rng.next_index(5));
-    return mesh;
-}
-
-/// Through edges and corners of cells, along walls, with zeros of both signs and tiny components.
-std::vector<Ray> lattice_rays(size_t count, uint64_t seed) {
-    Rng rng(seed);
-    std::vector<Ray> rays;
-    for (size_t i = 0; i < count; ++i) {
-        Ray ray;
-        for (int axis = 0; axis < 3; ++axis) {
-            ray.origin[axis] = 0.5f * static_cast<float>(rng.next_index(11)) - 0.5f;
-            ray.direction[axis] = static_cast<float>(rng.next_index(5)) - 2.0f;
-        }
-        if (i % 3 == 0) ray.direction[static_cast<int>(rng.next_index(3))] = -0.0f;
-        if (i % 5 == 0) ray.direction[static_cast<int>(rng.next_index(3))] = 0x1p-140f;
-        if (i % 7 == 0) ray.t_max = 1.0f;
-        rays.push_back(ray);
-    }
-    return rays;
 }
 
 TEST(Ropes, PointToTheLowestNodeThatContainsTheFace) {
