@@ -7,6 +7,7 @@
 #include "core/bsp/bsp_build.h"
 #include "core/bsp/bsp_piece.h"
 #include "core/bsp/convex_cell.h"
+#include "oracle/oracle.h"
 #include "oracle/polygon.h"
 #include "support/all_recipes.h"
 #include "support/lattice.h"
@@ -176,6 +177,42 @@ TEST(BspPiece, ATriangleInThePlaneHasNoSideAndOneThatTouchesHasOne) {
     const std::vector<DVec3> part = {{2, 5, 2.5}, {3, 1, 4}, {3, 3, 3.5}};
     const BspSides cut = sides_of(plane, value, {{2, 5, 2}, {3, 1, 4}, {4, 4, 3}}, part);
     EXPECT_NE(cut.left, cut.right);
+}
+
+TEST(BspPiece, NoSideIsLostWhereACornerOfAPieceIsWithinRoundingOfThePlane) {
+    // Edge ab crosses y = 0 close to the origin, where floats are finer than the roundings of the crossing;
+    // the second plane is the float next to it, so that the exact part beyond it may be narrower than these.
+    Rng rng(11);
+    size_t narrow = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const float ax = rng.next(1.0f, 2.0f), ay = rng.next(1.0f, 2.0f), bend = rng.next(-1e-6f, 1e-6f);
+        const Triangle triangle{{-ax, -ay, rng.next()}, {ax + bend, ay, rng.next()}, {-ax, ay, 0.0f}};
+        const BspPlane first = BspPlane::across(1, 0.0f);
+        const PlaneValue first_value(first);
+        std::vector<DVec3> part;
+        const int side = i % 2 == 0 ? -1 : 1;
+        cut_piece(first_value, triangle,
+                  std::vector<DVec3>{DVec3(triangle.a), DVec3(triangle.b), DVec3(triangle.c)}, side, part);
+        const Polygon exact_part = ExactPlane(first).part(polygon_of(triangle), side);
+        // The crossing is the corner with y = 0 that has the larger x.
+        mpq_class crossing = -10;
+        for (const oracle::ExactPoint& p : exact_part)
+            if (sgn(p[1]) == 0 && p[0] > crossing) crossing = p[0];
+        const float nearest = oracle::round_to_float(crossing);
+        for (const float position :
+             {nearest, std::nextafter(nearest, -1.0f), std::nextafter(nearest, 1.0f)}) {
+            const BspPlane second = BspPlane::across(0, position);
+            const BspSides sides = sides_of(second, PlaneValue(second), triangle, part);
+            for (const int second_side : {-1, 1}) {
+                const Polygon beyond = ExactPlane(second).part(exact_part, second_side);
+                const oracle::ExactPoint area = oracle::area_vector(beyond);
+                if (sgn(area[0]) == 0 && sgn(area[1]) == 0 && sgn(area[2]) == 0) continue;
+                ASSERT_TRUE(second_side < 0 ? sides.left : sides.right);
+                narrow += abs(mpq_class(double(position)) - crossing) < mpq_class(0x1p-54);
+            }
+        }
+    }
+    EXPECT_GT(narrow, 1000u);
 }
 
 TEST(ConvexCell, ACubeCutDiagonallyAsComputedByHand) {
