@@ -47,8 +47,9 @@ std::vector<Include> all_includes() {
     return includes;
 }
 
-const std::vector<std::string> kFamilies = {"core/brute_force", "core/bsp",    "core/bvh",      "core/grid",
-                                            "core/kdtree",      "core/octree", "core/wide_bvh", "core/rbvh"};
+const std::vector<std::string> kFamilies = {"core/brute_force", "core/bsp",    "core/bvh",
+                                            "core/grid",        "core/kdtree", "core/octree",
+                                            "core/volume_bvh",  "core/rbvh",   "core/wide_bvh"};
 
 /// The folders that a folder of core may include, itself besides.
 std::vector<std::string> allowed_in_core(const std::string& folder) {
@@ -58,7 +59,9 @@ std::vector<std::string> allowed_in_core(const std::string& folder) {
     std::vector<std::string> allowed = {"core/base", "core/scene", "core/refs"};
     if (folder == "core/structure") return allowed;
     allowed.push_back("core/structure");
-    if (folder == "core/wide_bvh" || folder == "core/rbvh") allowed.push_back("core/bvh");
+    // Made out of a binary BVH: by transforms, or as a hybrid of one.
+    if (folder == "core/volume_bvh" || folder == "core/rbvh" || folder == "core/wide_bvh")
+        allowed.push_back("core/bvh");
     if (folder == "core/catalog") allowed.insert(allowed.end(), kFamilies.begin(), kFamilies.end());
     return allowed;
 }

@@ -99,6 +99,12 @@ TEST(CheckNodes, SaysWhatIsWrong) {
         return check_nodes(list, triangle_count);
     };
     EXPECT_EQ(wrong([](NodeList& l) { l.nodes[3].bounds = box(0, 5); }), "node 3 sticks out of its parent");
+    EXPECT_EQ(wrong([](NodeList& l) {
+                  l.nodes[3].bounds = box(0, 5);
+                  l.is_nested = false;
+              }),
+              "");
+    EXPECT_EQ(wrong([](NodeList& l) { l.half_areas = {1.0}; }), "there are 5 nodes and 1 areas");
     EXPECT_EQ(wrong([](NodeList& l) { l.nodes[1].parent = 4; }), "node 1 comes before its parent");
     EXPECT_EQ(wrong([](NodeList& l) { l.nodes[1].parent = kNoIndex; }), "node 1 is a second root");
     EXPECT_EQ(wrong([](NodeList& l) { l.nodes[0].parent = 0; }), "node 0 is the first and has a parent");

@@ -45,6 +45,15 @@ TEST(TreeStats, ThreeNodesComputedByHand) {
     EXPECT_EQ(stats.empty_leaves, 0u);
 }
 
+TEST(TreeStats, AVolumeThatIsNoBoxCountsWithItsOwnArea) {
+    NodeList list = three_nodes();
+    list.half_areas = {10.0, 5.0, 2.0};
+    const TreeStats stats = tree_stats(make_level_table(list));
+    EXPECT_DOUBLE_EQ(stats.levels[1].total_area, 0.7);
+    EXPECT_DOUBLE_EQ(stats.sah_cost, 1.0 + 0.5 * 3 + 0.2 * 2);
+    EXPECT_DOUBLE_EQ(stats.levels[1].sibling_overlap, 8.0 / 20.0);  // of their boxes
+}
+
 TEST(TreeStats, OtherConstantsWeighInnerNodesAndPrimitives) {
     EXPECT_DOUBLE_EQ(tree_stats(make_level_table(three_nodes()), 2.0, 0.5).sah_cost, 2.0 + 0.5 * 3.6);
 }

@@ -20,13 +20,14 @@ ValueRange range_of(const std::vector<float>& values) {
 
 /// The nodes' terms of the SAH cost.
 std::vector<double> sah_terms(const NodeList& list) {
-    const double root_area = list.nodes.empty() ? 0.0 : list.nodes[0].bounds.half_area();
+    const double root_area = list.nodes.empty() ? 0.0 : list.half_area(0);
     std::vector<double> terms;
     terms.reserve(list.nodes.size());
-    for (const NodeView& node : list.nodes) {
+    for (size_t i = 0; i < list.nodes.size(); ++i) {
+        const NodeView& node = list.nodes[i];
         const double cost =
             node.kind == NodeKind::Leaf ? leaf_cost(node.ref_count) : static_cast<double>(kTraversalCost);
-        terms.push_back(hit_probability(node.bounds.half_area(), root_area) * cost);
+        terms.push_back(hit_probability(list.half_area(i), root_area) * cost);
     }
     return terms;
 }

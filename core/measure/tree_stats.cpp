@@ -63,11 +63,12 @@ TreeStats tree_stats(const LevelTable& table, double traversal_cost, double inte
     TreeStats stats;
     const std::vector<NodeView>& nodes = table.list.nodes;
     if (nodes.empty()) return stats;
-    const double root_area = nodes[0].bounds.half_area();
+    const double root_area = table.list.half_area(0);
     stats.levels.resize(table.level_count());
-    for (const NodeView& node : nodes) {
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        const NodeView& node = nodes[i];
         LevelStats& level = stats.levels[node.level];
-        const double probability = hit_probability(node.bounds.half_area(), root_area);
+        const double probability = hit_probability(table.list.half_area(i), root_area);
         ++level.nodes;
         level.total_area += probability;
         if (node.kind == NodeKind::Inner) {

@@ -8,7 +8,8 @@
 
 namespace boxwood {
 
-/// One row of the table of levels. Areas and probabilities are relative to the root's: 1 is the root's area.
+/// One row of the table of levels. Areas of nodes are those of their volumes (see NodeList::half_areas).
+/// Areas and probabilities are relative to the root's: 1 is the root's area.
 struct LevelStats {
     uint64_t nodes = 0;
     uint64_t leaves = 0;
@@ -20,7 +21,8 @@ struct LevelStats {
     /// by the sum of their parents' areas. A ray that meets the parent meets a common box, and so has to
     /// visit both siblings, with that probability. 0 at level 0, and where siblings do no more than touch.
     /// Stich, Friedrich, Dietrich, "Spatial Splits in Bounding Volume Hierarchies", HPG 2009, section 4.5: SA
-    /// of the common box. Differs: relative to the parent, not to the root.
+    /// of the common box. Differs: relative to the parent, not to the root. Volumes that are no boxes count
+    /// as their boxes here.
     double sibling_overlap = 0.0;
 };
 

@@ -13,7 +13,8 @@ struct SortKey {
 };
 
 /// What is wrong with the link from node `i` to its parent; empty if nothing.
-std::string check_parent(const std::vector<NodeView>& nodes, size_t i) {
+std::string check_parent(const NodeList& list, size_t i) {
+    const std::vector<NodeView>& nodes = list.nodes;
     const NodeView& node = nodes[i];
     const std::string name = "node " + std::to_string(i);
     if (i == 0) {
@@ -25,7 +26,7 @@ std::string check_parent(const std::vector<NodeView>& nodes, size_t i) {
     const NodeView& parent = nodes[node.parent];
     if (parent.kind != NodeKind::Inner) return name + " is the child of a leaf";
     if (node.level != parent.level + 1) return name + " is not one level below its parent";
-    if (!parent.bounds.contains(node.bounds)) return name + " sticks out of its parent";
+    if (list.is_nested && !parent.bounds.contains(node.bounds)) return name + " sticks out of its parent";
     return {};
 }
 
@@ -50,7 +51,7 @@ std::string check_leaf(const NodeList& list, size_t i, std::vector<uint32_t>& la
 
 size_t LevelTable::byte_count() const {
     return list.nodes.size() * sizeof(NodeView) + list.ref_prims.size() * sizeof(uint32_t) +
-           list.outlines.size() * sizeof(OutlineSegment) +
+           list.outlines.size() * sizeof(OutlineSegment) + list.half_areas.size() * sizeof(double) +
            (order.size() + level_begin.size() + leaf_count.size()) * sizeof(uint32_t);
 }
 
@@ -78,7 +79,7 @@ LevelTable make_level_table(NodeList list) {
     std::vector<SortKey> keys(list.nodes.size());
     std::vector<uint32_t> next(group_begin.begin(), group_begin.end() - 1);
     for (uint32_t i = 0; i < list.nodes.size(); ++i)
-        keys[next[group(list.nodes[i])]++] = {list.nodes[i].bounds.half_area(), i};
+        keys[next[group(list.nodes[i])]++] = {list.half_area(i), i};
     for (size_t g = 0; g + 1 < group_begin.size(); ++g)
         std::sort(keys.begin() + group_begin[g], keys.begin() + group_begin[g + 1],
                   [](const SortKey& a, const SortKey& b) {
@@ -99,10 +100,13 @@ LevelTable make_level_table(NodeList list) {
 std::string check_nodes(const NodeList& list, size_t triangle_count) {
     const std::vector<NodeView>& nodes = list.nodes;
     if (nodes.empty() && triangle_count > 0) return "there are primitives and no nodes";
+    if (!list.half_areas.empty() && list.half_areas.size() != nodes.size())
+        return "there are " + std::to_string(nodes.size()) + " nodes and " +
+               std::to_string(list.half_areas.size()) + " areas";
     std::vector<uint32_t> last_leaf(triangle_count, kNoIndex);
     std::vector<uint8_t> has_child(nodes.size(), 0);
     for (size_t i = 0; i < nodes.size(); ++i) {
-        std::string wrong = check_parent(nodes, i);
+        std::string wrong = check_parent(list, i);
         if (wrong.empty() && nodes[i].kind == NodeKind::Leaf) wrong = check_leaf(list, i, last_leaf);
         if (!wrong.empty()) return wrong;
         if (nodes[i].parent != kNoIndex) has_child[nodes[i].parent] = 1;

@@ -32,10 +32,19 @@ struct NodeList {
     std::vector<NodeView> nodes;
     std::vector<uint32_t> ref_prims;
     std::vector<OutlineSegment> outlines;  ///< empty where the boxes are the cells
+    /// Half the surface area of each node's volume where the volumes are no boxes; empty: that of the boxes.
+    std::vector<double> half_areas;
+    /// Whether every child's box lies in its parent's. False for volumes other than boxes: each contains what
+    /// the leaves below it hold, but may stick out of its parent's.
+    bool is_nested = true;
+
+    double half_area(size_t node) const {
+        return half_areas.empty() ? nodes[node].bounds.half_area() : half_areas[node];
+    }
 };
 
 /// Nodes grouped by level. order[level_begin[l] .. level_begin[l + 1]) are the nodes at level l: leaves
-/// first, then inner nodes, each by descending half area, ties by index.
+/// first, then inner nodes, each by descending half area of the volume, ties by index.
 struct LevelTable {
     NodeList list;
     std::vector<uint32_t> order;
