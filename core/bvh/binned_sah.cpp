@@ -137,7 +137,7 @@ Bvh2 BinnedSah::build(const Mesh&, std::span<const PrimRef> refs, Task& task) co
         if (fits_a_leaf) return std::nullopt;
         return count / 2;
     };
-    return TopDown(refs, partition, task).build();
+    return build_top_down(refs, partition, task);
 }
 
 }  // namespace boxwood

@@ -32,7 +32,20 @@ public:
 
     Bvh2 build() {
         if (refs_.empty()) return {};
-        build_node(0, {0, static_cast<uint32_t>(refs_.size())}, 0);
+        const auto bounds_of = [&](RefRange range) {
+            Box bounds;
+            for (uint32_t i = range.begin; i < range.end; ++i) bounds.extend(refs_[order_[0][i]].bounds);
+            return bounds;
+        };
+        const auto partition = [&](RefRange range, const Box& bounds,
+                                   uint32_t depth) -> std::optional<uint32_t> {
+            const std::optional<Split> split = choose_split(range, bounds, depth);
+            if (!split) return std::nullopt;
+            reorder(range, *split);
+            return split->left_count;
+        };
+        TopDownRecursion(scratch_, bounds_of, partition, task_)
+            .build_node(0, {0, static_cast<uint32_t>(refs_.size())}, 0);
         if (task_.stopped()) return {};
         std::vector<uint32_t> prims(refs_.size());
         for (size_t i = 0; i < refs_.size(); ++i) prims[i] = refs_[order_[0][i]].prim;
@@ -40,8 +53,6 @@ public:
     }
 
 private:
-    static constexpr uint32_t kSerialCount = 2048;
-
     void sort_by_center(size_t axis) {
         struct Key {
             float center;
@@ -58,7 +69,8 @@ private:
         for (size_t i = 0; i < keys.size(); ++i) order_[axis][i] = keys[i].ref;
     }
 
-    /// Cost of every split of the range in the order of one axis: areas from the right, then from the left.
+    /// Cost of every split of the range in the order of one axis. The lecture's arrays: RSA(i) times its
+    /// count is stored in one pass from the right; LSA(i) is used in the pass from the left that makes it.
     void sweep_axis(size_t axis, RefRange range, Split& best) {
         const std::vector<uint32_t>& order = order_[axis];
         Box box;
@@ -101,7 +113,7 @@ private:
     }
 
     /// Reorders the other two axes' orders so that the left references come first, each side still sorted.
-    void partition(RefRange range, const Split& split) {
+    void reorder(RefRange range, const Split& split) {
         const std::vector<uint32_t>& chosen = order_[static_cast<size_t>(split.axis)];
         for (uint32_t i = range.begin; i < range.end; ++i)
             is_left_[chosen[i]] = i < range.begin + split.left_count;
@@ -117,26 +129,6 @@ private:
                 }
             }
             std::copy(spare_.begin() + range.begin, spare_.begin() + right, order.begin() + left);
-        }
-    }
-
-    void build_node(uint32_t node, RefRange range, uint32_t depth) {
-        Box bounds;
-        for (uint32_t i = range.begin; i < range.end; ++i) bounds.extend(refs_[order_[0][i]].bounds);
-        scratch_.set_leaf(node, bounds, range);
-        if (range.count() == 1 || depth == Bvh2::kMaxDepth || task_.stopped()) return;
-        const std::optional<Split> split = choose_split(range, bounds, depth);
-        if (!split) return;  // a leaf is cheaper
-        partition(range, *split);
-        const uint32_t mid = range.begin + split->left_count;
-        const uint32_t left = scratch_.set_inner(node, mid);
-        const auto build_left = [&] { build_node(left, {range.begin, mid}, depth + 1); };
-        const auto build_right = [&] { build_node(left + 1, {mid, range.end}, depth + 1); };
-        if (range.count() > kSerialCount) {
-            parallel_invoke(build_left, build_right);
-        } else {
-            build_left();
-            build_right();
         }
     }
 

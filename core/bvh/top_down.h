@@ -73,33 +73,22 @@ inline bool must_halve(uint32_t depth, uint32_t count) {
     return depth + static_cast<uint32_t>(std::bit_width(count)) >= Bvh2::kMaxDepth;
 }
 
-/// Ernst, Greiner 2007, Algorithm 2: top-down construction over a copy of the references, in parallel.
-/// `partition(refs, bounds, depth)` with the node's NodeBounds reorders the references of a node and returns
-/// how many go left, or nothing where a leaf is cheaper. It is called from many threads.
-template <class Partition>
-class TopDown {
+/// Ernst, Greiner 2007, Algorithm 2: the recursion of every top-down build, in parallel.
+/// `bounds_of(range)` gives the Box or the NodeBounds of a node's references;
+/// `partition(range, bounds, depth)` reorders them and returns how many go left, or nothing where a leaf is
+/// cheaper. Both are called from many threads, for ranges that do not overlap.
+template <class BoundsOf, class Partition>
+class TopDownRecursion {
 public:
-    TopDown(std::span<const PrimRef> refs, const Partition& partition, const Task& task)
-        : refs_(refs.begin(), refs.end()), scratch_(refs.size()), partition_(partition), task_(task) {}
-
-    Bvh2 build() {
-        if (refs_.empty()) return {};
-        build_node(0, {0, static_cast<uint32_t>(refs_.size())}, 0);
-        if (task_.stopped()) return {};
-        std::vector<uint32_t> prims(refs_.size());
-        for (size_t i = 0; i < refs_.size(); ++i) prims[i] = refs_[i].prim;
-        return finish(scratch_, prims);
-    }
-
-private:
-    static constexpr uint32_t kSerialCount = 2048;  ///< smaller nodes are built by one thread
+    TopDownRecursion(NodeScratch& scratch, const BoundsOf& bounds_of, const Partition& partition,
+                     const Task& task)
+        : scratch_(scratch), bounds_of_(bounds_of), partition_(partition), task_(task) {}
 
     void build_node(uint32_t node, RefRange range, uint32_t depth) {
-        const std::span<PrimRef> refs(refs_.data() + range.begin, range.count());
-        const NodeBounds bounds = bounds_of(refs);
-        scratch_.set_leaf(node, bounds.box, range);
+        const auto bounds = bounds_of_(range);
+        scratch_.set_leaf(node, box_of(bounds), range);
         if (range.count() == 1 || depth == Bvh2::kMaxDepth || task_.stopped()) return;
-        const std::optional<uint32_t> left_count = partition_(refs, bounds, depth);
+        const std::optional<uint32_t> left_count = partition_(range, bounds, depth);
         if (!left_count) return;  // a leaf is cheaper
         const uint32_t mid = range.begin + *left_count;
         const uint32_t left = scratch_.set_inner(node, mid);
@@ -113,10 +102,36 @@ private:
         }
     }
 
-    std::vector<PrimRef> refs_;
-    NodeScratch scratch_;
+private:
+    static constexpr uint32_t kSerialCount = 2048;  ///< smaller nodes are built by one thread
+
+    static const Box& box_of(const Box& box) { return box; }
+    static const Box& box_of(const NodeBounds& bounds) { return bounds.box; }
+
+    NodeScratch& scratch_;
+    const BoundsOf& bounds_of_;
     const Partition& partition_;
     const Task& task_;
 };
+
+/// A top-down build over a copy of the references. `partition(refs, bounds, depth)` gets a node's references
+/// and its NodeBounds; see TopDownRecursion.
+template <class Partition>
+Bvh2 build_top_down(std::span<const PrimRef> input, const Partition& partition, const Task& task) {
+    if (input.empty()) return {};
+    std::vector<PrimRef> refs(input.begin(), input.end());
+    const auto refs_of = [&](RefRange range) { return std::span(refs).subspan(range.begin, range.count()); };
+    const auto bounds_of_range = [&](RefRange range) { return bounds_of(refs_of(range)); };
+    const auto partition_range = [&](RefRange range, const NodeBounds& bounds, uint32_t depth) {
+        return partition(refs_of(range), bounds, depth);
+    };
+    NodeScratch scratch(refs.size());
+    TopDownRecursion(scratch, bounds_of_range, partition_range, task)
+        .build_node(0, {0, static_cast<uint32_t>(refs.size())}, 0);
+    if (task.stopped()) return {};
+    std::vector<uint32_t> prims(refs.size());
+    for (size_t i = 0; i < refs.size(); ++i) prims[i] = refs[i].prim;
+    return finish(scratch, prims);
+}
 
 }  // namespace boxwood

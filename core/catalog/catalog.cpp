@@ -3,6 +3,7 @@
 #include "core/brute_force/brute_force.h"
 #include "core/bsp/bsp_build.h"
 #include "core/bvh/binned_sah.h"
+#include "core/bvh/object_median.h"
 #include "core/bvh/spatial_median.h"
 #include "core/bvh/sweep_sah.h"
 #include "core/kdtree/kd_median.h"
@@ -25,6 +26,8 @@ constexpr CatalogEntry kBuilders[] = {
     row<BruteForceBuilder>("none", "brute force", "Kerbl, lecture, \"Structure: none\""),
     row<SpatialMedian>("bvh-spatial-median", "BVH, spatial median",
                        "Kay and Kajiya 1986; Ernst and Greiner 2007, 3.2"),
+    row<ObjectMedian>("bvh-object-median", "BVH, object median",
+                      "Kerbl, lecture, \"Splitting at object median\""),
     row<BinnedSah>("bvh-binned-sah", "BVH, binned SAH", "Wald 2007, section 3"),
     row<SweepSah>("bvh-sweep-sah", "BVH, SAH sweep", "Wald, Boulos and Shirley 2007, section 4"),
     row<BspSah>("bsp", "BSP, planes of triangles and axes",
