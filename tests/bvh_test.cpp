@@ -39,7 +39,7 @@ TEST(SweepSah, WeighsEveryPlaceByTheLecturesFormula) {
     // that is off by one in either array another place.
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<PrimRef> refs;
-        for (const float x : {10.0f, 2.0f, 0.0f, 1.0f}) {
+        for (const float x : {2.0f, 10.0f, 0.0f, 1.0f}) {  // not parted by number
             Box box{Vec3(0.0f), Vec3(1.0f)};
             box.lower[axis] = x;
             box.upper[axis] = x + 1.0f;
@@ -49,7 +49,7 @@ TEST(SweepSah, WeighsEveryPlaceByTheLecturesFormula) {
         const Bvh2 bvh = SweepSah{.max_leaf_size = 3, .traversal_cost = 2.0f}.build(Mesh{}, refs, task);
         ASSERT_EQ(bvh.nodes.size(), 3u);
         EXPECT_EQ(bvh.nodes[1].count, 3u);
-        EXPECT_EQ(bvh.prims, (std::vector<uint32_t>{1, 2, 3, 0}));
+        EXPECT_EQ(bvh.prims, (std::vector<uint32_t>{0, 2, 3, 1}));
         EXPECT_EQ(bvh.nodes[1].upper[axis], 3.0f);
         EXPECT_EQ(bvh.nodes[2].lower[axis], 10.0f);
     }
