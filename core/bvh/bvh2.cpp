@@ -1,56 +1,21 @@
 #include "core/bvh/bvh2.h"
 
-#include "core/base/assert.h"
+#include "core/bvh/front_to_back.h"
 
 namespace boxwood {
 
 namespace {
 
-struct StackEntry {
-    uint32_t node;
-    double entry;
-};
-
 /// Visits leaves front to back as long as visit_leaf(leaf) is true.
 template <Mode mode, class Counter, class VisitLeaf>
 void traverse(const Bvh2& bvh, ClosestHit<mode>& ray, Counter& count, VisitLeaf&& visit_leaf) {
-    if (bvh.nodes.empty()) return;
-    StackEntry stack[Bvh2::kMaxDepth];
-    uint32_t size = 0;
-    double entry;
-    count.visit_node(0);
-    ray.enter_scene(bvh.nodes[0].lower, bvh.nodes[0].upper);
-    if (!ray.meets(bvh.nodes[0].lower, bvh.nodes[0].upper, entry)) return;
-    uint32_t node = 0;
-    while (true) {
-        const Bvh2::Node& current = bvh.nodes[node];
-        if (current.is_leaf()) {
-            if (!visit_leaf(current)) return;
-        } else {
-            const uint32_t left = current.first, right = current.first + 1;
-            double left_entry, right_entry;
-            count.visit_node(left);
-            count.visit_node(right);
-            const bool meets_left = ray.meets(bvh.nodes[left].lower, bvh.nodes[left].upper, left_entry);
-            const bool meets_right = ray.meets(bvh.nodes[right].lower, bvh.nodes[right].upper, right_entry);
-            if (meets_left && meets_right) {
-                BOXWOOD_ASSERT(size < Bvh2::kMaxDepth);
-                const bool left_first = left_entry <= right_entry;
-                stack[size++] = left_first ? StackEntry{right, right_entry} : StackEntry{left, left_entry};
-                node = left_first ? left : right;
-                continue;
-            }
-            if (meets_left || meets_right) {
-                node = meets_left ? left : right;
-                continue;
-            }
-        }
-        do {
-            if (size == 0) return;
-            --size;
-        } while (!ray.is_open(stack[size].entry));
-        node = stack[size].node;
-    }
+    const std::vector<Bvh2::Node>& nodes = bvh.nodes;
+    if (nodes.empty()) return;
+    ray.enter_scene(nodes[0].lower, nodes[0].upper);
+    visit_front_to_back(
+        nodes, ray, count, [](const Bvh2::Node& node) { return node.is_leaf(); },
+        [&](uint32_t node, double& entry) { return ray.meets(nodes[node].lower, nodes[node].upper, entry); },
+        [&](uint32_t leaf) { return visit_leaf(nodes[leaf]); });
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "core/refs/early_split_clipping.h"
 #include "core/refs/edge_volume.h"
 #include "core/refs/whole_boxes.h"
+#include "core/volume_bvh/bounding_volumes.h"
 
 namespace boxwood {
 namespace {
@@ -40,6 +41,9 @@ constexpr CatalogEntry kBuilders[] = {
 constexpr CatalogEntry kTransforms[] = {
     row<AddRopes>("ropes", "kd-tree with ropes, stackless",
                   "Popov, Guenther, Seidel and Slusallek 2007, section 3"),
+    row<Spheres>("spheres", "bounding spheres", "Kerbl, lecture, \"Bounding volumes\""),
+    row<OrientedBoxes>("oriented-boxes", "oriented boxes",
+                       "Kerbl, lecture, \"Bounding volumes\"; Gottschalk et al. 1996"),
 };
 
 }  // namespace
