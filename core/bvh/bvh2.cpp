@@ -42,12 +42,12 @@ bool Bvh2::any_hit(const Mesh& mesh, ClosestHit<mode>& ray, Counter& count) cons
     return is_hit;
 }
 
-NodeList Bvh2::list_nodes() const {
+NodeList list_bvh_nodes(std::span<const Bvh2::Node> nodes, std::span<const uint32_t> prims) {
     NodeList list;
     list.nodes.resize(nodes.size());
-    list.ref_prims = prims;
+    list.ref_prims.assign(prims.begin(), prims.end());
     for (uint32_t i = 0; i < nodes.size(); ++i) {
-        const Node& node = nodes[i];
+        const Bvh2::Node& node = nodes[i];
         NodeView& view = list.nodes[i];
         view.bounds = {node.lower, node.upper};
         view.kind = node.is_leaf() ? NodeKind::Leaf : NodeKind::Inner;
@@ -63,6 +63,8 @@ NodeList Bvh2::list_nodes() const {
     }
     return list;
 }
+
+NodeList Bvh2::list_nodes() const { return list_bvh_nodes(nodes, prims); }
 
 template void Bvh2::closest_hit(const Mesh&, ClosestHit<Mode::Exact>&, Count&) const;
 template void Bvh2::closest_hit(const Mesh&, ClosestHit<Mode::Exact>&, NoCount&) const;

@@ -34,4 +34,7 @@ struct Bvh2 {
     size_t byte_count() const { return nodes.size() * sizeof(Node) + prims.size() * sizeof(uint32_t); }
 };
 
+/// Views of nodes in the layout of Bvh2, all of whose boxes and leaves are what they say.
+NodeList list_bvh_nodes(std::span<const Bvh2::Node> nodes, std::span<const uint32_t> prims);
+
 }  // namespace boxwood

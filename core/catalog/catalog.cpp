@@ -3,6 +3,7 @@
 #include "core/brute_force/brute_force.h"
 #include "core/bsp/bsp_build.h"
 #include "core/bvh/binned_sah.h"
+#include "core/bvh/late_split_clipping.h"
 #include "core/bvh/object_median.h"
 #include "core/bvh/spatial_median.h"
 #include "core/bvh/sweep_sah.h"
@@ -41,6 +42,7 @@ constexpr CatalogEntry kBuilders[] = {
 constexpr CatalogEntry kTransforms[] = {
     row<AddRopes>("ropes", "kd-tree with ropes, stackless",
                   "Popov, Guenther, Seidel and Slusallek 2007, section 3"),
+    row<LateSplitClipping>("lsc", "late split clipping", "Ernst and Greiner 2007, 5.1"),
     row<Spheres>("spheres", "bounding spheres", "Kerbl, lecture, \"Bounding volumes\""),
     row<OrientedBoxes>("oriented-boxes", "oriented boxes",
                        "Kerbl, lecture, \"Bounding volumes\"; Gottschalk et al. 1996"),
