@@ -177,22 +177,39 @@ std::vector<LargeLeaf> large_leaves(const Bvh2& bvh, double max_area, size_t mos
     return leaves;
 }
 
+/// The primitives of leaves that were not cut, in their order.
+void keep_prims_of_the_rest(const Bvh2& input, const std::vector<LargeLeaf>& leaves,
+                            const std::vector<DeepTree>& trees, LateSplitBvh& result) {
+    std::vector<uint8_t> is_kept(input.prims.size(), 1);
+    for (size_t l = 0; l < leaves.size(); ++l) {
+        const Bvh2::Node& leaf = input.nodes[leaves[l].node];
+        if (trees[l].nodes.size() > 1) std::fill_n(is_kept.begin() + leaf.first, leaf.count, uint8_t{0});
+    }
+    std::vector<uint32_t> place(input.prims.size());
+    for (size_t i = 0; i < input.prims.size(); ++i) {
+        place[i] = static_cast<uint32_t>(result.prims.size());
+        if (is_kept[i] != 0) result.prims.push_back(input.prims[i]);
+    }
+    for (Bvh2::Node& node : result.nodes)
+        if (node.is_leaf()) node.first = place[node.first];
+}
+
 /// Appends the trees to the nodes of the original one, those of leaves with one primitive first.
 LateSplitBvh join(const Bvh2& input, const std::vector<LargeLeaf>& leaves,
                   const std::vector<DeepTree>& trees) {
     LateSplitBvh result;
     result.nodes = input.nodes;
     result.original_count = static_cast<uint32_t>(input.nodes.size());
+    keep_prims_of_the_rest(input, leaves, trees, result);
     for (const bool are_single : {true, false}) {
         for (size_t l = 0; l < leaves.size(); ++l) {
             const std::vector<Bvh2::Node>& nodes = trees[l].nodes;
-            Bvh2::Node& leaf = result.nodes[leaves[l].node];
             if (nodes.size() == 1 || (input.nodes[leaves[l].node].count == 1) != are_single) continue;
             // Node 0 of the tree is the leaf; the others come here.
             const auto before_first = static_cast<uint32_t>(result.nodes.size()) - 1;
             const auto first_prim = static_cast<uint32_t>(result.prims.size());
-            leaf.first = before_first + nodes[0].first;
-            leaf.count = 0;
+            result.nodes[leaves[l].node].first = before_first + nodes[0].first;
+            result.nodes[leaves[l].node].count = 0;
             for (size_t i = 1; i < nodes.size(); ++i) {
                 result.nodes.push_back(nodes[i]);
                 result.nodes.back().first += nodes[i].is_leaf() ? first_prim : before_first;
@@ -200,13 +217,6 @@ LateSplitBvh join(const Bvh2& input, const std::vector<LargeLeaf>& leaves,
             result.prims.insert(result.prims.end(), trees[l].prims.begin(), trees[l].prims.end());
         }
         if (are_single) result.single_end = static_cast<uint32_t>(result.nodes.size());
-    }
-    for (uint32_t i = 0; i < result.original_count; ++i) {  // what was not cut
-        Bvh2::Node& leaf = result.nodes[i];
-        if (!leaf.is_leaf()) continue;
-        const auto first = input.prims.begin() + leaf.first;
-        leaf.first = static_cast<uint32_t>(result.prims.size());
-        result.prims.insert(result.prims.end(), first, first + leaf.count);
     }
     return result;
 }
@@ -222,7 +232,7 @@ LateSplitBvh LateSplitClipping::apply(const Mesh& mesh, std::span<const PrimRef>
     const std::vector<LargeLeaf> leaves = large_leaves(input, max_area, most_added, task);
     std::vector<DeepTree> trees(leaves.size());
     task.total = leaves.size();
-    parallel_for(leaves.size(), 64, [&](size_t begin, size_t end) {
+    parallel_for(leaves.size(), 8, [&](size_t begin, size_t end) {
         LeafCutter cutter(mesh, input, max_area);
         uint64_t left_large = 0;
         for (size_t l = begin; l < end && !task.stopped(); ++l) {

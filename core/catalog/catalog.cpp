@@ -12,6 +12,7 @@
 #include "core/kdtree/ropes.h"
 #include "core/refs/early_split_clipping.h"
 #include "core/refs/edge_volume.h"
+#include "core/refs/refinement.h"
 #include "core/refs/whole_boxes.h"
 #include "core/volume_bvh/bounding_volumes.h"
 
@@ -20,6 +21,7 @@ namespace {
 
 constexpr CatalogEntry kReferences[] = {
     row<WholeBoxes>("whole", "one box for each triangle", "Kerbl, lecture, \"Bounding volumes\""),
+    row<Refinement>("refine", "geometry refinement", "Ernst and Greiner 2007, section 4"),
     row<EdgeVolume>("evh", "edge volume heuristic", "Dammertz and Keller 2008, section 2"),
     row<EarlySplitClipping>("esc", "early split clipping", "Ernst and Greiner 2007, algorithm 4"),
 };
