@@ -42,19 +42,19 @@ TEST(Refinement, CutsOneIntoFourAsComputedByHand) {
     EXPECT_EQ(make(mesh, {.rounds = 5}).refs.size(), 1024u);
 }
 
-TEST(Refinement, CutsUntilNoEdgeIsLongerThanAsked) {
-    // Longest edges 5 and 13: with a limit of 4 one round and two; with one of 5, none and two.
+TEST(Refinement, CutsUntilNoEdgeIsLongerThanAFractionOfTheDiagonal) {
+    // Longest edges 5 and 13, diagonal 13. Half of it, 6.5: none and one round; a quarter, 3.25: one and two.
     const Mesh mesh = make_mesh({{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {{0, 0, 0}, {5, 0, 0}, {0, 12, 0}}});
     Task task;
-    const References by_four = Refinement{.edge = 4.0f}.make(mesh, task);
-    EXPECT_EQ(boxes_of(by_four.refs, 0).size(), 4u);
-    EXPECT_EQ(boxes_of(by_four.refs, 1).size(), 16u);
-    EXPECT_EQ(by_four.split_count, 2u);
-    const References by_five = Refinement{.edge = 5.0f}.make(mesh, task);
-    EXPECT_EQ(boxes_of(by_five.refs, 0).size(), 1u);
-    EXPECT_EQ(boxes_of(by_five.refs, 1).size(), 16u);
+    const References half = Refinement{.edge = 1.0f}.make(mesh, task);
+    EXPECT_EQ(boxes_of(half.refs, 0).size(), 1u);
+    EXPECT_EQ(boxes_of(half.refs, 1).size(), 4u);
+    EXPECT_EQ(half.split_count, 1u);
     EXPECT_EQ(skipped(task, "tight"), 1u);
-    for (const PrimRef& ref : by_four.refs) EXPECT_LE(glm::length(ref.bounds.extent()), 4.0);
+    const References quarter = Refinement{.edge = 2.0f}.make(mesh, task);
+    EXPECT_EQ(boxes_of(quarter.refs, 0).size(), 4u);
+    EXPECT_EQ(boxes_of(quarter.refs, 1).size(), 16u);
+    for (const PrimRef& ref : quarter.refs) EXPECT_LE(glm::length(ref.bounds.extent()), 3.25);
 }
 
 TEST(Refinement, TheUnionOfTheBoxesContainsTheTriangle) {
@@ -108,6 +108,27 @@ TEST(Refinement, EachBoxContainsItsExactPieceWhereSumsRound) {
     }
 }
 
+TEST(Refinement, BoundOfCornersHoldsAndHalfOfItDoesNot) {
+    // 2u M, as derived in refinement.cpp: (14 a + b + c) / 16 on one axis, a just above 1, b and c so small
+    // that both sums round.
+    Rng rng(5);
+    double largest_ratio = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+        const double a = double(1.0f + 0.15f * rng.next());
+        const auto small = [&] {
+            const float value = rng.next(-2.0f, 2.0f);
+            return double(std::ldexp(value, -30 - static_cast<int>(rng.next_index(20))));
+        };
+        const double b = small(), c = small();
+        const double corner = (14.0 * a + 1.0 * b + 1.0 * c) / 16.0;
+        const mpq_class exact = (14 * mpq_class(a) + mpq_class(b) + mpq_class(c)) / 16;
+        const mpq_class error = abs(mpq_class(exact - mpq_class(corner)));
+        largest_ratio = std::max(largest_ratio, error.get_d() / (2.0 * 0x1p-53 * a));
+    }
+    EXPECT_LE(largest_ratio, 1.0);
+    EXPECT_GT(largest_ratio, 0.5);
+}
+
 TEST(Refinement, StaysInsideItsBudgetByWholeRounds) {
     const Mesh mesh = make_mesh(random_triangles(10, -1, 1, 3));
     Task task;
@@ -115,7 +136,7 @@ TEST(Refinement, StaysInsideItsBudgetByWholeRounds) {
     const References references = method.make(mesh, task);
     EXPECT_EQ(references.refs.size(), 640u);  // three rounds: a fourth would make 2560
     EXPECT_EQ(skipped(task, "over the reference budget"), 10u);
-    const Refinement by_edge{.edge = 1e-6f, .budget = {.per_triangle = 100, .at_least = 0}};
+    const Refinement by_edge{.edge = 20.0f, .budget = {.per_triangle = 100, .at_least = 0}};
     EXPECT_LE(make(mesh, by_edge).refs.size(), 1000u);
     EXPECT_GT(make(mesh, by_edge).refs.size(), 100u);
 }

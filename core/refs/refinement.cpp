@@ -94,13 +94,15 @@ References Refinement::make(const Mesh& mesh, Task& task) const {
     const auto measure = [by_edge](const Triangle& triangle) {
         return by_edge ? longest_edge(triangle) : 1.0;
     };
-    const SubdivisionRule rule = {.limit = by_edge ? static_cast<double>(edge) : std::ldexp(1.0, -rounds),
-                                  .largest = by_edge ? glm::length(mesh.bounds().extent()) : 1.0,
-                                  .growth = 2.0,  // half the edge, four pieces
-                                  .measure = measure,
-                                  .cut = [&](const Triangle& triangle, double limit, const EmitBox& emit) {
-                                      cut(triangle, rounds_for(measure(triangle), limit), emit);
-                                  }};
+    const double largest = by_edge ? glm::length(mesh.bounds().extent()) : 1.0;
+    const SubdivisionRule rule = {
+        .limit = largest * std::exp2(by_edge ? -static_cast<double>(edge) : -static_cast<double>(rounds)),
+        .largest = largest,
+        .growth = 2.0,  // half the edge, four pieces
+        .measure = measure,
+        .cut = [&](const Triangle& triangle, double limit, const EmitBox& emit) {
+            cut(triangle, rounds_for(measure(triangle), limit), emit);
+        }};
     return subdivide(mesh, rule, budget, task);
 }
 
