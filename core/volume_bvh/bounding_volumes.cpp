@@ -69,37 +69,61 @@ double radius_around(const Vec3& center, const Mesh& mesh, std::span<const Piece
     return radius;
 }
 
-/// Extends a slab by a point's place on its axis, with the place's error.
-void extend(double& lower, double& upper, const DVec3& axis, const Vec3& point) {
-    const BoundedDot place = bounded_dot<VolumeBounds>(axis, DVec3(point));
-    lower = std::min(lower, place.value - place.error);
-    upper = std::max(upper, place.value + place.error);
-}
-
-/// The slabs of the pieces on given axes.
-OrientedBox box_along(const std::array<Vec3, 3>& axes, const Mesh& mesh, std::span<const Piece> pieces,
-                      const Task& task) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    OrientedBox box{axes, {kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+/// On each axis of the scene the largest |coordinate| of the pieces' triangles.
+DVec3 largest_coordinates(const Mesh& mesh, std::span<const Piece> pieces, const Task& task) {
+    Vec3 largest(0.0f);
     for (const Piece& piece : pieces) {
         if (task.stopped()) break;
         const Triangle t = mesh.triangle(piece.prim);
-        for (size_t k = 0; k < 3; ++k) {
-            const DVec3 axis(axes[k]);
-            double lower = kInfinity, upper = -kInfinity;
-            for (const Vec3& corner : {t.a, t.b, t.c}) extend(lower, upper, axis, corner);
-            if (!piece.is_whole) {
-                // The corners of the piece's box that come first and last on the axis.
-                const auto is_up = glm::greaterThan(axes[k], Vec3(0.0f));
-                double box_lower = kInfinity, box_upper = -kInfinity;
-                extend(box_lower, box_upper, axis, glm::mix(piece.box.upper, piece.box.lower, is_up));
-                extend(box_lower, box_upper, axis, glm::mix(piece.box.lower, piece.box.upper, is_up));
-                lower = std::max(lower, box_lower);
-                upper = std::min(upper, box_upper);
-            }
-            box.lower[k] = std::min(box.lower[k], lower);
-            box.upper[k] = std::max(box.upper[k], upper);
+        largest = glm::max(glm::max(largest, glm::abs(t.a)), glm::max(glm::abs(t.b), glm::abs(t.c)));
+    }
+    return DVec3(largest);
+}
+
+/// Places on an axis, as scalar products.
+struct Slab {
+    double lower = std::numeric_limits<double>::infinity();
+    double upper = -std::numeric_limits<double>::infinity();
+
+    void extend(double place) {
+        lower = std::min(lower, place);
+        upper = std::max(upper, place);
+    }
+};
+
+/// Of one piece on an axis; not wider than either its triangle's or its box's.
+Slab slab_of(const Piece& piece, const Triangle& t, const DVec3& axis) {
+    Slab slab;
+    for (const Vec3& corner : {t.a, t.b, t.c}) slab.extend(glm::dot(axis, DVec3(corner)));
+    if (piece.is_whole) return slab;
+    // The corners of the box that come first and last on the axis.
+    const auto is_up = glm::greaterThan(axis, DVec3(0.0));
+    const DVec3 lower(piece.box.lower), upper(piece.box.upper);
+    slab.lower = std::max(slab.lower, glm::dot(axis, glm::mix(upper, lower, is_up)));
+    slab.upper = std::min(slab.upper, glm::dot(axis, glm::mix(lower, upper, is_up)));
+    return slab;
+}
+
+/// The slabs of the pieces on given axes, widened by what scalar products with such coordinates may be off.
+OrientedBox box_along(const std::array<Vec3, 3>& axes, const DVec3& largest, const Mesh& mesh,
+                      std::span<const Piece> pieces, const Task& task) {
+    const DVec3 exact_axes[3] = {DVec3(axes[0]), DVec3(axes[1]), DVec3(axes[2])};
+    Slab slabs[3];
+    for (const Piece& piece : pieces) {
+        if (task.stopped()) break;
+        const Triangle t = mesh.triangle(piece.prim);
+        for (int k = 0; k < 3; ++k) {
+            const Slab slab = slab_of(piece, t, exact_axes[k]);
+            slabs[k].extend(slab.lower);
+            slabs[k].extend(slab.upper);
         }
+    }
+    OrientedBox box{axes, {}, {}};
+    for (size_t k = 0; k < 3; ++k) {
+        // Moving a face by the error of two roundings is a third one.
+        const double error = 1.5 * bounded_dot<VolumeBounds>(exact_axes[k], largest).error;
+        box.lower[k] = slabs[k].lower - error;
+        box.upper[k] = slabs[k].upper + error;
     }
     return box;
 }
@@ -153,9 +177,10 @@ VolumeBvh<OrientedBox> OrientedBoxes::apply(const Mesh& mesh, std::span<const Pr
                                             Task& task) const {
     return with_volumes<OrientedBox>(mesh, input, task, [&](const Box& box, std::span<const Piece> pieces) {
         OrientedBox best = axis_aligned(box);
+        const DVec3 coordinates = largest_coordinates(mesh, pieces, task);
         const auto attempt = [&](const std::optional<std::array<Vec3, 3>>& axes) {
             if (!axes) return;
-            const OrientedBox candidate = box_along(*axes, mesh, pieces, task);
+            const OrientedBox candidate = box_along(*axes, coordinates, mesh, pieces, task);
             if (candidate.half_area() < best.half_area()) best = candidate;
         };
         attempt(principal_axes_of(mesh, pieces, task));

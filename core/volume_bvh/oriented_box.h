@@ -59,10 +59,9 @@ public:
         near = -std::numeric_limits<double>::infinity();
         far = std::numeric_limits<double>::infinity();
         for (size_t k = 0; k < 3; ++k) {
-            const DVec3 axis(box.axis[k]);
-            const BoundedDot o = bounded_dot<Bounds>(axis, origin_),
-                             d = bounded_dot<Bounds>(axis, direction_);
-            const double grown = o.error + margin_ * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
+            const DVec3 a(box.axis[k]);
+            const BoundedDot o = bounded_dot<Bounds>(a, origin_), d = bounded_dot<Bounds>(a, direction_);
+            const double grown = o.error + margin_ * (std::abs(a.x) + std::abs(a.y) + std::abs(a.z));
             // Distances along the axis to the planes: to the one that is met first, and to the other.
             const double to_lower = box.lower[k] - o.value, to_upper = box.upper[k] - o.value;
             if (std::abs(d.value) <= d.error) {

@@ -60,9 +60,9 @@ public:
         const double error = Bounds::kUnit * glm::length(to_center);
         const double t = glm::dot(to_center, direction_) / length_squared_;
         const DVec3 m = to_center - t * direction_;
-        const double radius = sphere.radius + margin_ + 2.0 * error;
+        const double grown = sphere.radius + margin_ + 2.0 * error;
         constexpr double kPad = 1.0 + 16.0 * Bounds::kUnit;
-        const double rest = (radius * radius + 81.0 * error * error) * kPad - glm::dot(m, m);
+        const double rest = (grown * grown + 81.0 * error * error) * kPad - glm::dot(m, m);
         if (!(rest >= 0.0)) return false;
         const double reach = (std::sqrt(rest) * kPad + 10.0 * error) * inverse_length_;
         near = t - reach;
