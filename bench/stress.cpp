@@ -149,10 +149,11 @@ std::vector<StressRow> run_stress(const StressSettings& settings, Task& task) {
         for (const Mode mode : settings.modes) {
             for (const StressKind& kind : kinds) {
                 if (task.stopped()) return rows;
-                const bool is_aimed =
-                    kind.judge == Judge::MustHit && mode == Mode::Exact &&
-                    (settings.aimed_family.empty() || family(recipe) == settings.aimed_family);
-                const uint64_t least_rays = is_aimed ? settings.aimed_rays / 2 : 0;
+                const bool is_aimed = mode == Mode::Exact && (settings.aimed_family.empty() ||
+                                                              family(recipe) == settings.aimed_family);
+                const double share = is_aimed ? kind.aimed_share : 0.0;
+                const auto least_rays =
+                    static_cast<uint64_t>(std::ceil(share * static_cast<double>(settings.aimed_rays)));
                 rows.push_back(run_kind(settings, recipe, kind, mode,
                                         settings.seconds / static_cast<double>(kinds.size()), least_rays,
                                         task));

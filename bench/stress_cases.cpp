@@ -397,8 +397,10 @@ constexpr StressKind kKinds[] = {
     {"cyclic-overlaps", "three triangles, each above one and below another", Judge::Oracle, 48,
      cyclic_overlaps},
     {"ranges", "ranges that end or begin at the hit, or just miss it", Judge::Oracle, 48, ranges},
-    {"fans", "fans of 16 to 65,536 slivers, aimed at the hub and the spokes", Judge::MustHit, 40000, fans},
-    {"closed-mesh", "a sphere from inside, aimed at vertices and edges", Judge::MustHit, 40000, closed_mesh},
+    {"fans", "fans of 16 to 65,536 slivers, aimed at the hub and the spokes", Judge::MustHit, 40000, fans,
+     0.1},
+    {"closed-mesh", "a sphere from inside, aimed at vertices and edges", Judge::MustHit, 40000, closed_mesh,
+     0.9},
     {"leaving", "rays from where a sphere was hit, outwards", Judge::MustMiss, 200, leaving},
     {"not-finite", "NaN, infinity, no direction, an empty range", Judge::MustMiss, 1000, not_finite},
 };

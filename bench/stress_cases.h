@@ -30,6 +30,7 @@ struct StressKind {
     Judge judge;
     size_t ray_count;  ///< rays of one case, at most
     StressCase (*make)(uint64_t seed, size_t ray_count);
+    double aimed_share = 0.0;  ///< of the rays that are to be aimed at closed meshes: the cheap kind has most
 };
 
 std::span<const StressKind> stress_kinds();
