@@ -41,9 +41,16 @@ void expect_round_trips(const Catalog& catalog) {
         for (const CatalogEntry& builder : catalog.builders) {
             for (int shuffled = 0; shuffled < 20; ++shuffled) {
                 Recipe recipe{Stage(references), Stage(builder), {}};
-                for (const CatalogEntry& transform : catalog.transforms)
-                    if (std::string(transform.input) == builder.output)
-                        recipe.transforms.emplace_back(transform);
+                // Each time from another transform on, all that fit one after the other.
+                const std::span<const CatalogEntry> transforms = catalog.transforms;
+                std::string family = builder.output;
+                for (size_t i = 0; i < transforms.size(); ++i) {
+                    const CatalogEntry& next =
+                        transforms[(i + static_cast<size_t>(shuffled)) % transforms.size()];
+                    if (next.input != family) continue;
+                    recipe.transforms.emplace_back(next);
+                    family = next.output;
+                }
                 if (shuffled > 0) {
                     Shuffle shuffle(seed++);
                     recipe.references.method().describe(shuffle);
