@@ -1,6 +1,7 @@
 #include "core/bsp/bsp_build.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -129,16 +130,17 @@ private:
         }
     }
 
-    static Counts count_sides(const Sample& sample, const PlaneValue& value) {
+    static Counts count_sides(const Sample& sample, const PlaneValue& value, double tolerance) {
         Counts counts;
         size_t i = 0;
         for (const size_t end : sample.ends) {
-            bool is_left = false, is_right = false;
+            double least = std::numeric_limits<double>::infinity(), largest = -least;
             for (; i < end; ++i) {
-                const double h = value.at(sample.corners[i]), error = value.error_at(sample.corners[i]);
-                is_left = is_left || h < -4.0 * error;
-                is_right = is_right || h > 4.0 * error;
+                const double h = value.at(sample.corners[i]);
+                least = std::min(least, h);
+                largest = std::max(largest, h);
             }
+            const bool is_left = least<-tolerance, is_right = largest> tolerance;
             counts.left += is_left ? sample.scale : 0.0;
             counts.right += is_right ? sample.scale : 0.0;
             counts.in_plane += is_left || is_right ? 0.0 : sample.scale;
@@ -161,7 +163,7 @@ private:
         std::optional<BspSplit> best;
         for (const BspPlane& plane : draw_candidates(work, rng)) {
             const PlaneValue value(plane);
-            const Counts counts = count_sides(sample, value);
+            const Counts counts = count_sides(sample, value, work.cell.tolerance(value));
             // The parts' areas sum to more than the cell's, and neither is larger than that.
             const double least = double(params_.traversal_cost) + std::min(counts.left, counts.right);
             if (least * area >= best_cost) continue;

@@ -26,6 +26,8 @@ public:
     /// The parts on both sides. Requires one on both.
     std::pair<ConvexCell, ConvexCell> cut(const PlaneValue& plane) const;
 
+    /// |h| of a corner up to this counts as 0.
+    double tolerance(const PlaneValue& plane) const;
     double half_area() const;
     double volume() const;
     /// Box of the corners, moved outwards by the tolerance and rounded outwards.
@@ -39,9 +41,6 @@ private:
     Polygon part_of(const Polygon& face, const PlaneValue& plane, int side, Polygon& in_plane) const;
     ConvexCell part_of(const PlaneValue& plane, int side) const;
     void add_face(Polygon face);
-    /// |h| up to this counts as 0.
-    double tolerance(const PlaneValue& plane) const;
-
     std::vector<Polygon> faces_;
     std::vector<DVec3> areas_;  ///< twice the faces' area vectors
     double reach_ = 0.0;        ///< largest |coordinate| of the root's box

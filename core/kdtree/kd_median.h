@@ -12,7 +12,7 @@ namespace boxwood {
 /// would be in both children, and a leaf is made where that is so on every axis. The plane cannot be outside
 /// or on the wall of the cell: the middle is taken for a median that is. Pieces in the plane go left.
 ///
-/// Ends by depth, and by the budget of references, which bounds memory: below 64 bytes for each reference
+/// Ends by depth, and by the budget of references, which bounds memory: below 160 bytes for each reference
 /// that the budget allows.
 struct KdMedian {
     int middle = 0;     ///< of: 0 the cell, 1 the references

@@ -127,6 +127,7 @@ private:
             return static_cast<uint32_t>(child.pieces.size() - 1);
         };
         for (size_t i = 0; i < work.pieces.size(); ++i) {
+            if (i % 1024 == 0 && task_.stopped()) return;
             const PrimRef& piece = work.pieces[i];
             switch (side_of(piece.bounds, split)) {
                 case KdSide::Left:

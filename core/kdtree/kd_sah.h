@@ -14,7 +14,7 @@ namespace boxwood {
 /// side that is cheaper, of equal ones to the left. A leaf is made where no split is cheaper.
 /// Differs: boxes of cut pieces are exact, each the smallest of floats, clipped from the triangle itself.
 ///
-/// Ends by depth, and by the budget of references, which bounds memory: below 200 bytes for each reference
+/// Ends by depth, and by the budget of references, which bounds memory: below 256 bytes for each reference
 /// that the budget allows.
 struct KdSah {
     bool clip = true;                       ///< Ernst, Greiner 2007, algorithm 3
