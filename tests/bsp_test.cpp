@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -83,6 +84,55 @@ TEST(BspPlane, SideIsExact) {
     }
     EXPECT_GT(in_plane, 100u);
     EXPECT_LT(in_plane, 3000u);
+}
+
+/// Twelve coordinates: three points of a plane, and a point or a direction.
+using Coordinates = std::array<float, 12>;
+
+/// How much of its error bound h uses up, at a point or along a direction.
+double used_bound(const Coordinates& x, bool along) {
+    const BspPlane plane = BspPlane::through({{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}});
+    const Vec3 v(x[9], x[10], x[11]);
+    const PlaneValue value(plane);
+    const double h = along ? value.along(DVec3(v)) : value.at(DVec3(v));
+    const double bound = along ? value.error_along(DVec3(v)) : value.error_at(DVec3(v));
+    mpq_class exact = ExactPlane(plane).at(oracle::exact_point(v));
+    if (along) exact -= ExactPlane(plane).at(oracle::exact_point(Vec3(0)));
+    const mpq_class error = abs(mpq_class(h) - exact);
+    return bound > 0.0 ? error.get_d() / bound : sgn(error) == 0 ? 0.0 : 2.0;
+}
+
+TEST(BspPlane, ErrorStaysWithinItsBoundAndHalfOfThatWouldNotDo) {
+    // Climbs towards the largest error from coordinates that round much: just above a power of two, some of
+    // them so small that differences lose their last bits.
+    Rng rng(12);
+    const auto coordinate = [&] {
+        const float size = 1.0f + 0.03f * rng.next(), sign = rng.next() < 0.5f ? -1.0f : 1.0f;
+        const int exponent = rng.next() < 0.5f ? 0 : -24 - static_cast<int>(rng.next_index(20));
+        return std::ldexp(size * sign, exponent);
+    };
+    for (const bool along : {false, true}) {
+        double largest = 0.0;
+        for (int start = 0; start < 8; ++start) {
+            Coordinates x;
+            for (float& value : x) value = coordinate();
+            double used = used_bound(x, along);
+            for (int step = 0; step < 2500; ++step) {
+                Coordinates changed = x;
+                const size_t place = rng.next_index(12);
+                const bool is_small_step = rng.next() < 0.5f;
+                const float factor = 1.0f + rng.next(-1e-3f, 1e-3f);
+                changed[place] = is_small_step ? changed[place] * factor : coordinate();
+                const double other = used_bound(changed, along);
+                ASSERT_LE(other, 1.0);
+                if (other < used) continue;
+                used = other;
+                x = changed;
+            }
+            largest = std::max(largest, used);
+        }
+        EXPECT_GT(largest, 0.5) << (along ? "along a direction" : "at a point");
+    }
 }
 
 TEST(BspPlane, OnAnEdgeHoldsItsEndsAndIsPerpendicular) {
