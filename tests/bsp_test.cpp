@@ -154,13 +154,22 @@ TEST(BspPlane, OnAnEdgeHoldsItsEndsAndIsPerpendicular) {
     EXPECT_FALSE(plane_on_edge(Vec3(0), Vec3(1), Vec3(2)).has_value());
 }
 
-/// In exact arithmetic: no leaf holds a triangle that does not reach its cell, and the parts of a triangle in
-/// the leaves that hold it sum to all of it.
+bool contains(const Box& box, const oracle::ExactPoint& p) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const mpq_class& x = p[static_cast<size_t>(axis)];
+        if (x < mpq_class(double(box.lower[axis])) || x > mpq_class(double(box.upper[axis]))) return false;
+    }
+    return true;
+}
+
+/// In exact arithmetic: no leaf holds a triangle that does not reach its cell, the parts of a triangle in the
+/// leaves that hold it sum to all of it, and each lies in the leaf's box.
 void expect_exact_references(const BspTree& tree, const Mesh& mesh) {
     struct Visit {
         uint32_t node;
         Polygon part;
     };
+    const NodeList list = tree.list_nodes();
     for (uint32_t prim = 0; prim < mesh.triangle_count(); ++prim) {
         oracle::ExactPoint sum;
         std::vector<Visit> stack{{0, polygon_of(mesh.triangle(prim))}};
@@ -177,6 +186,8 @@ void expect_exact_references(const BspTree& tree, const Mesh& mesh) {
             const auto begin = tree.prims.begin() + node.first(), end = begin + node.count();
             if (std::find(begin, end, prim) == end) continue;
             ASSERT_FALSE(visit.part.empty()) << "superfluous: primitive " << prim;
+            for (const oracle::ExactPoint& corner : visit.part)
+                ASSERT_TRUE(contains(list.nodes[visit.node].bounds, corner));
             const oracle::ExactPoint area = oracle::area_vector(visit.part);
             for (size_t k = 0; k < 3; ++k) sum[k] += area[k];
         }
