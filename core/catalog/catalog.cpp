@@ -10,6 +10,9 @@
 #include "core/kdtree/kd_median.h"
 #include "core/kdtree/kd_sah.h"
 #include "core/kdtree/ropes.h"
+#include "core/grid/uniform_grid.h"
+#include "core/octree/octree.h"
+#include "core/octree/quadtree.h"
 #include "core/refs/early_split_clipping.h"
 #include "core/refs/edge_volume.h"
 #include "core/refs/refinement.h"
@@ -28,6 +31,9 @@ constexpr CatalogEntry kReferences[] = {
 
 constexpr CatalogEntry kBuilders[] = {
     row<BruteForceBuilder>("none", "brute force", "Kerbl, lecture, \"Structure: none\""),
+    row<UniformGrid>("grid", "regular grid", "Kerbl, lecture, \"Regular Grid\"; Amanatides and Woo 1987"),
+    row<Octree>("octree", "octree", "Kerbl, lecture, \"Quad and Octrees\""),
+    row<Quadtree>("quadtree", "quadtree over the ground plane", "Kerbl, lecture, \"Quad and Octrees\""),
     row<SpatialMedian>("bvh-spatial-median", "BVH, spatial median",
                        "Kay and Kajiya 1986; Ernst and Greiner 2007, 3.2"),
     row<ObjectMedian>("bvh-object-median", "BVH, object median",

@@ -1,5 +1,7 @@
 #include "core/refs/prim_ref.h"
 
+#include <algorithm>
+
 #include "core/base/assert.h"
 
 namespace boxwood {
@@ -12,6 +14,16 @@ std::vector<uint8_t> split_flags(std::span<const PrimRef> refs, size_t triangle_
     }
     for (uint8_t& count : counts) count = count > 1 ? 1 : 0;
     return counts;
+}
+
+std::vector<uint32_t> prims_of(std::span<const PrimRef> refs) {
+    std::vector<uint32_t> prims;
+    prims.reserve(refs.size());
+    for (const PrimRef& ref : refs)
+        if (prims.empty() || prims.back() != ref.prim) prims.push_back(ref.prim);
+    if (!std::is_sorted(prims.begin(), prims.end())) std::sort(prims.begin(), prims.end());
+    prims.erase(std::unique(prims.begin(), prims.end()), prims.end());
+    return prims;
 }
 
 }  // namespace boxwood

@@ -28,4 +28,8 @@ struct References {
 /// Primitive -> whether it has more than one reference (1) or not (0); size mesh.triangle_count().
 std::vector<uint8_t> split_flags(std::span<const PrimRef> refs, size_t triangle_count);
 
+/// The primitives of the references, each once, ascending. What a structure needs that asks the triangles
+/// themselves which cells they touch: smaller boxes would not change the answer.
+std::vector<uint32_t> prims_of(std::span<const PrimRef> refs);
+
 }  // namespace boxwood
