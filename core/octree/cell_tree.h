@@ -50,8 +50,9 @@ struct CellTree {
     }
 };
 
-/// A cell on the lattice: number of its lower wall on each axis; its edge is 2^(kMaxDepth - level) lattice
-/// cells along the axes that were split at every level above. Along the others nothing is ever split.
+/// Where a cell is halved: number of its lower wall on each axis, and half the edge of all cells of its level
+/// in lattice cells. A cell is longer along an axis where it was not halved at every level above: there no
+/// float lay between the walls, or the tree does not split that axis.
 struct LatticeCell {
     std::array<uint32_t, 3> lower{};
     uint32_t level = 0;

@@ -9,10 +9,10 @@ namespace boxwood {
 /// Quadrants of the ground plane of the scene's bounds, again and again where there are more than N_leaf
 /// triangles; cells reach through the whole height. Kerbl, lecture, "Quad and Octrees". See subdivide_cells.
 struct Quadtree {
-    int up = 1;             ///< axis that is never split: 0 is x
-    int max_depth = 12;     ///< S_max, 0 to CellTree::kMaxDepth
-    int max_leaf_size = 8;  ///< N_leaf, 1 to 1024
-    bool split = false;     ///< triangles are split at the borders of cells, not referenced whole
+    int up = 1;              ///< axis that is never split: 0 is x
+    int max_depth = 10;      ///< S_max, 0 to CellTree::kMaxDepth
+    int max_leaf_size = 32;  ///< N_leaf, 1 to 1024
+    bool split = false;      ///< triangles are split at the borders of cells, not referenced whole
     ReferenceBudget budget{.per_triangle = 64, .at_least = size_t{1} << 20};
 
     void describe(ParamVisitor& v) {

@@ -90,7 +90,7 @@ private:
     void split(OpenNode& open) {
         if (open.count <= rule_.max_leaf_size || open.cell.level >= rule_.max_depth) return;
         for (int axis = 0; axis < 3; ++axis) {
-            if ((rule_.axes >> axis & 1u) == 0 || open.box.lower[axis] == open.box.upper[axis]) continue;
+            if ((rule_.axes >> axis & 1u) == 0) continue;
             const auto k = static_cast<size_t>(axis);
             const float middle = tree_.wall(k, open.cell.middle(k));
             if (!(open.box.lower[axis] < middle && middle < open.box.upper[axis])) continue;

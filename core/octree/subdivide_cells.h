@@ -8,7 +8,7 @@ namespace boxwood {
 
 /// What octree and quadtree have in common.
 struct CellTreeRule {
-    uint32_t axes;           ///< halved in every subdivision, bit 0 for x; without those of no extent
+    uint32_t axes;           ///< halved in every subdivision, bit 0 for x
     uint32_t max_depth;      ///< S_max, at most CellTree::kMaxDepth
     uint32_t max_leaf_size;  ///< N_leaf
     bool split;              ///< keep the box of each primitive's part in its leaf's cell
