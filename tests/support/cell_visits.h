@@ -84,7 +84,7 @@ inline void expect_exact_references(const NodeList& list, const Mesh& mesh) {
     }
 }
 
-/// A ray must test each primitive of the leaves that it visits once; it must come across some more often.
+/// A ray must test each primitive of the leaves that it visits once; some it must come across more often.
 template <AccelerationStructure S>
 void expect_no_test_twice(const S& structure, const Mesh& mesh, const std::vector<Ray>& rays) {
     const NodeList list = structure.list_nodes();
@@ -104,10 +104,13 @@ void expect_no_test_twice(const S& structure, const Mesh& mesh, const std::vecto
             }
         uint64_t met = 0;
         for (const uint8_t is : is_met) met += is;
-        ASSERT_EQ(count.tests, met);
+        ASSERT_LE(count.tests, met);
+        // A hit may end the search before a leaf that was met.
+        ASSERT_TRUE(ray.hit(mesh).is_hit() || count.tests == met);
         tests += count.tests;
     }
-    EXPECT_GT(4 * references, 5 * tests) << "too few primitives are come across twice: the test shows nothing";
+    EXPECT_GT(4 * references, 5 * tests)
+        << "too few primitives are come across twice: the test shows nothing";
 }
 
 /// Two small triangles at opposite corners of the cube [-1, 1]^3 + offset: what most rays miss.
