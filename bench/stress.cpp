@@ -1,5 +1,6 @@
 #include "bench/stress.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <mutex>
@@ -76,15 +77,27 @@ struct Judgement {
     }
 };
 
+/// The same triangles, each in the place of another one: a frame before, as far from this one as can be.
+Mesh another_frame(Mesh mesh) {
+    std::ranges::reverse(mesh.triangles);
+    return mesh;
+}
+
+/// The structure after the builder and the first `count` transforms.
+Structure build(const Recipe& recipe, const Mesh& mesh, size_t count, Task& task) {
+    const References references = recipe.references.method().make(mesh, task);
+    if (count == 0) return recipe.builder.method().build(mesh, references.refs, task);
+    const StageMethod& transform = recipe.transforms[count - 1].method();
+    const Structure input =
+        build(recipe, transform.input_frame() ? another_frame(mesh) : mesh, count - 1, task);
+    return transform.apply(mesh, references.refs, input, task);
+}
+
 /// One case: built, traced, judged, added to the row.
 void run_case(const StressSettings& settings, const Recipe& recipe, const StressKind& kind, uint64_t seed,
               StressRow& row, Task& task) {
     const StressCase test = kind.make(seed, kind.ray_count);
-    const References references = recipe.references.method().make(test.mesh, task);
-    Structure structure = recipe.builder.method().build(test.mesh, references.refs, task);
-    for (const Stage& transform : recipe.transforms) {
-        structure = transform.method().apply(test.mesh, references.refs, structure, task);
-    }
+    const Structure structure = build(recipe, test.mesh, recipe.transforms.size(), task);
     std::vector<Hit> hits(test.rays.size());
     std::vector<Count> counts(test.rays.size());
     structure.closest_hits_counted(test.mesh, test.rays, hits, counts, row.mode, task);

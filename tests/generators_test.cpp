@@ -68,7 +68,8 @@ TEST_P(EveryBuiltInScene, ComesWithACameraThatLooksAtIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Generators, EveryBuiltInScene,
-                         testing::Values("atrium", "spaceship", "cornell", "two-triangles", "terrain"));
+                         testing::Values("atrium", "spaceship", "kitchen", "cornell", "two-triangles",
+                                         "terrain"));
 
 /// The hashes are the same for g++ and clang++, any number of threads, and every run. A change of a generator
 /// changes its hash here and its pictures in screenshots/.
@@ -133,6 +134,91 @@ TEST(Spaceship, IsTurnedSoThatItsLongPlatesFillTheirBoxes) {
     const double straight = filled_by_boxes(mesh);
     EXPECT_GT(turned, 10.0);
     EXPECT_GT(turned, 20.0 * straight);
+}
+
+Mesh kitchen_at(int frame) { return make("kitchen", {.values = {{"frame", std::to_string(frame)}}}).mesh; }
+
+bool is_moving(const Mesh& mesh, uint32_t prim) {
+    return mesh.objects[mesh.object[prim]].name.starts_with("moving ");
+}
+
+TEST(Kitchen, HasAFewHugeTrianglesAmongManySmallOnesAndACameraInside) {
+    const Scene scene = make("kitchen");
+    EXPECT_GE(scene.mesh.triangle_count(), 80000u);
+    EXPECT_LE(scene.mesh.triangle_count(), 120000u);
+    EXPECT_TRUE(scene.mesh.bounds().contains(Box{scene.camera->eye, scene.camera->eye}));
+    const double room = scene.mesh.bounds().half_area();
+    size_t huge = 0, small = 0;
+    for (uint32_t prim = 0; prim < scene.mesh.triangle_count(); ++prim) {
+        const double share = scene.mesh.triangle(prim).bounds().half_area() / room;
+        huge += share > 0.05;
+        small += share < 1e-4;
+    }
+    EXPECT_GE(huge, 8u);
+    EXPECT_LE(huge, 40u);
+    EXPECT_GT(small, 115000u);
+}
+
+TEST(Kitchen, EveryFrameHasTheSameTrianglesAndMovesOnlyWhatMoves) {
+    const Mesh first = kitchen_at(0);
+    std::vector<uint8_t> has_moved(first.objects.size(), 0);
+    for (const int frame : {1, 7, 30, 59, 60, 61, 90, 119}) {
+        Mesh mesh = kitchen_at(frame);
+        ASSERT_EQ(mesh.triangles, first.triangles) << frame;
+        ASSERT_EQ(mesh.object, first.object) << frame;
+        EXPECT_EQ(mesh.bounds(), first.bounds()) << frame;  // nothing leaves the room
+        for (uint32_t prim = 0; prim < mesh.triangle_count(); ++prim) {
+            const Triangle a = first.triangle(prim), b = mesh.triangle(prim);
+            const bool same = a.a == b.a && a.b == b.b && a.c == b.c;
+            if (!same) has_moved[mesh.object[prim]] = 1;
+            if (!is_moving(mesh, prim)) {
+                ASSERT_TRUE(same) << frame << " " << mesh.objects[mesh.object[prim]].name;
+            }
+        }
+        Task task;
+        check_mesh(mesh, task);
+        EXPECT_EQ(mesh.triangle_count(), first.triangle_count()) << frame;
+    }
+    for (size_t i = 0; i < first.objects.size(); ++i)
+        EXPECT_EQ(has_moved[i] != 0, first.objects[i].name.starts_with("moving ")) << first.objects[i].name;
+}
+
+TEST(Kitchen, PartsThatMoveStayRigid) {
+    const Mesh first = kitchen_at(0), later = kitchen_at(37);
+    for (uint32_t prim = 0; prim < first.triangle_count(); ++prim) {
+        const Triangle a = first.triangle(prim), b = later.triangle(prim);
+        // Corners are rounded to float once on each frame: 2^-24 of at most 8 m along each axis.
+        ASSERT_NEAR(glm::length(DVec3(a.b) - DVec3(a.a)), glm::length(DVec3(b.b) - DVec3(b.a)), 4e-6);
+        ASSERT_NEAR(glm::length(DVec3(a.c) - DVec3(a.b)), glm::length(DVec3(b.c) - DVec3(b.b)), 4e-6);
+    }
+}
+
+/// The largest step of a vertex from one frame to the next.
+double largest_step(int from, int to) {
+    const Mesh a = kitchen_at(from), b = kitchen_at(to);
+    double largest = 0.0;
+    for (size_t i = 0; i < a.positions.size(); ++i)
+        largest = std::max(largest, glm::length(DVec3(b.positions[i]) - DVec3(a.positions[i])));
+    return largest;
+}
+
+TEST(Kitchen, IsALoopWithoutAJump) {
+    const double usual = largest_step(20, 21);
+    EXPECT_GT(usual, 0.01);
+    EXPECT_LT(largest_step(119, 0), 1.5 * usual);
+    EXPECT_LT(largest_step(59, 60), 1.5 * usual);
+}
+
+TEST(Kitchen, RefusesWhatIsNoFrame) {
+    for (const char* frame : {"", "-1", "120", "1.5", "two", "1e1", "99999999999"}) {
+        try {
+            make("kitchen", {.values = {{"frame", frame}}});
+            ADD_FAILURE() << frame;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.exit_code(), ExitCode::WrongUsage) << frame;
+            EXPECT_NE(std::string(error.what()).find("0 to 119"), std::string::npos) << error.what();
+        }
+    }
 }
 
 TEST(Terrain, RoundsTheNumberOfTrianglesToTheNearestGrid) {

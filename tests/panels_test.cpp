@@ -215,6 +215,60 @@ TEST_F(Panels, AFileThatChangedIsReadAgain) {
     std::filesystem::remove(path);
 }
 
+/// The kitchen, in a recipe that is quickly built.
+class AnimatedPanels : public Panels {
+protected:
+    AnimatedPanels() {
+        viewer_.state.recipe = "bvh-spatial-median";
+        viewer_.open("kitchen");
+        viewer_.wait();
+        settle();
+    }
+    /// Frames of the window until the scene's spec is shown.
+    bool shows(const std::string& spec) {
+        for (const Timer timer; timer.milliseconds() < 10000.0;) {
+            viewer_.update(false);
+            if (viewer_.built()->scene->spec == spec) return true;
+            frame();
+        }
+        return false;
+    }
+};
+
+/// Middle of the slider of the frame: below the scene.
+constexpr Vec2 kSliderOfFrame(100.0f, 56.0f);
+
+TEST_F(AnimatedPanels, ADragOfTheSliderShowsAnotherFrameFromTheSameView) {
+    viewer_.state.camera = Camera{.eye = {3.0f, 1.0f, 4.0f}, .target = {3.0f, 1.0f, 0.0f}};
+    drag(kSliderOfFrame, kSliderOfFrame + Vec2(20.0f, 0.0f));
+    ASSERT_TRUE(viewer_.state.scene.starts_with("kitchen@frame=")) << viewer_.state.scene;
+    ASSERT_TRUE(shows(viewer_.state.scene));
+    EXPECT_EQ(viewer_.camera().eye, Vec3(3.0f, 1.0f, 4.0f));
+    EXPECT_EQ(viewer_.state.recipe, "bvh-spatial-median");
+    viewer_.apply({UndoStep{}});
+    EXPECT_TRUE(shows("kitchen")) << "a drag is one step";
+}
+
+TEST_F(AnimatedPanels, PlayShowsOneFrameAfterAnotherAndIsOneStepOfUndo) {
+    viewer_.state.scene = "kitchen@frame=118";
+    ASSERT_TRUE(shows("kitchen@frame=118"));
+    viewer_.update(false);
+    viewer_.panel_memory.playing = true;
+    EXPECT_TRUE(viewer_.busy());
+    ImGui::GetIO().DeltaTime = 0.1f;
+    for (const char* spec : {"kitchen@frame=119", "kitchen", "kitchen@frame=1"})
+        ASSERT_TRUE(shows(spec)) << spec;
+    viewer_.panel_memory.playing = false;
+    viewer_.update(false);
+    viewer_.apply({UndoStep{}});
+    EXPECT_TRUE(shows("kitchen@frame=118"));
+    viewer_.panel_memory.playing = true;
+    viewer_.open("cornell");
+    viewer_.wait();
+    frame();
+    EXPECT_FALSE(viewer_.panel_memory.playing) << "nothing to play";
+}
+
 TEST_F(Panels, ACancelledBuildKeepsWhatIsShown) {
     const auto built = viewer_.built();
     viewer_.state.recipe = "evh(t=30) > bvh-sweep-sah";

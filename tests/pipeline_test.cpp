@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
 #include "core/base/rng.h"
 #include "tests/support/test_stages.h"
 
@@ -120,6 +121,82 @@ TEST(RunRecipe, ReferencesCountBeforeTheStructureRemovesDuplicates) {
     const auto built = run_recipe(test_recipe("copies(copies=3) > none"), small_scene(), cache, task, true);
     EXPECT_EQ(built->references->refs.size(), 300u);
     EXPECT_EQ(built->levels->list.ref_prims.size(), 100u);
+}
+
+std::shared_ptr<const Scene> opened(const std::string& spec) {
+    Task task;
+    return open_scene(spec, task);
+}
+
+std::string refusal_of(const std::string& recipe, const std::string& spec) {
+    StageCache cache;
+    Task task;
+    try {
+        run_recipe(parse_recipe(recipe), opened(spec), cache, task);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit_code(), ExitCode::WrongUsage);
+        return error.what();
+    }
+    return "";
+}
+
+TEST(InputOfAnotherFrame, IsKeptUnderBothFrames) {
+    StageCache cache;
+    Task task;
+    const auto four = opened("kitchen@frame=4"), five = opened("kitchen@frame=5");
+    const Recipe from_0 = parse_recipe("bvh-spatial-median > refit"),
+                 from_1 = parse_recipe("bvh-spatial-median > refit(from=1)");
+    const auto first = run_recipe(from_0, four, cache, task, true);
+    EXPECT_EQ(cache.run_count(), 6u);  // frame 0, both frames' references, builder, refit, levels
+    EXPECT_EQ(run_recipe(from_0, four, cache, task, true)->levels, first->levels);
+    EXPECT_EQ(cache.run_count(), 6u);
+    const auto later = run_recipe(from_0, five, cache, task, true);  // the tree of frame 0 is there
+    EXPECT_EQ(cache.run_count(), 9u);
+    EXPECT_NE(later->levels, first->levels);
+    const auto other = run_recipe(from_1, four, cache, task, true);
+    EXPECT_EQ(cache.run_count(), 14u);  // frame 1, its references, builder, refit, levels
+    EXPECT_NE(other->levels, first->levels);
+    EXPECT_NE(first->structure.as<Bvh2>()->nodes, later->structure.as<Bvh2>()->nodes);
+    EXPECT_NE(first->structure.as<Bvh2>()->nodes, other->structure.as<Bvh2>()->nodes);
+    run_recipe(from_0, four, cache, task, true);
+    EXPECT_EQ(cache.run_count(), 14u);
+    // A plain build of the frame shares the builder's result with a refit to that frame.
+    const auto plain = run_recipe(parse_recipe("bvh-spatial-median"), opened("kitchen"), cache, task);
+    EXPECT_EQ(cache.run_count(), 14u);
+    const auto same = run_recipe(from_0, opened("kitchen"), cache, task);
+    EXPECT_EQ(cache.run_count(), 15u);
+    EXPECT_EQ(same->structure.as<Bvh2>()->nodes, plain->structure.as<Bvh2>()->nodes);
+}
+
+TEST(InputOfAnotherFrame, GoesThroughSeveralFrames) {
+    StageCache cache;
+    Task task;
+    const auto scene = opened("kitchen@frame=9");
+    const auto twice =
+        run_recipe(parse_recipe("bvh-spatial-median > refit > refit(from=5)"), scene, cache, task);
+    const auto once = run_recipe(parse_recipe("bvh-spatial-median > refit"), scene, cache, task);
+    EXPECT_EQ(twice->structure.as<Bvh2>()->nodes, once->structure.as<Bvh2>()->nodes);
+    EXPECT_GT(twice->build_ms, once->build_ms);  // its last stage comes on top
+}
+
+TEST(InputOfAnotherFrame, KeepsTheOtherSuffixes) {
+    StageCache cache;
+    Task task;
+    const auto scene = opened("kitchen@frame=9@scale=2@move=1,0,0");
+    const auto built = run_recipe(parse_recipe("bvh-spatial-median > refit(from=3)"), scene, cache, task);
+    const Bvh2::Node& root = built->structure.as<Bvh2>()->nodes[0];
+    EXPECT_EQ((Box{root.lower, root.upper}), scene->mesh.bounds());
+    EXPECT_NE(cache.find("scene kitchen@frame=3@scale=2@move=1,0,0"), nullptr);
+}
+
+TEST(InputOfAnotherFrame, RefusesScenesWithoutFramesAndPiecesWithASentence) {
+    EXPECT_EQ(refusal_of("bvh-spatial-median > refit(from=3)", "cornell"),
+              "refit(from=3): scene 'cornell' has no frames; built-in scenes that have some: kitchen");
+    EXPECT_EQ(refusal_of("evh(t=3) > bvh-spatial-median > refit", "cornell"),
+              "refit: whole triangles are needed, evh makes pieces, which are those of one frame");
+    // So small that triangles lose their area, on each frame others.
+    const std::string other = refusal_of("bvh-spatial-median > refit", "kitchen@frame=9@scale=1e-42");
+    EXPECT_NE(other.find("has other triangles than"), std::string::npos) << other;
 }
 
 TEST(StageCache, TheLeastRecentlyUsedGoesFirst) {

@@ -3,9 +3,12 @@
 
 #include "app/viewer/number_text.h"
 #include "app/viewer/panel_parts.h"
+#include "core/scene/frame.h"
 
 namespace boxwood::panel {
 namespace {
+
+constexpr int kFramesPerSecond = 24;
 
 void built_in_list(const Context& context) {
     for (const BuiltInScene& scene : built_in_scenes()) {
@@ -46,6 +49,34 @@ void skipped_and_warnings(const Context& context, const Scene& scene) {
     for (const std::string& warning : scene.warnings) note(context, warning);
 }
 
+/// Slider of an animated scene's frame, and what plays it: the next frame comes once this one is on screen.
+void frame_slider(const Context& context) {
+    PanelMemory& memory = context.memory;
+    const std::optional<SceneFrame> wanted = scene_frame(context.state.scene);
+    memory.playing = memory.playing && wanted.has_value();
+    if (!wanted) return;
+    const float width = 64.0f * context.scale;
+    ImGui::SetNextItemWidth(-width - ImGui::GetStyle().ItemSpacing.x);
+    int frame = wanted->frame;
+    ImGui::SliderInt("##frame", &frame, 0, wanted->count - 1, "frame %d", ImGuiSliderFlags_AlwaysClamp);
+    tooltip(context,
+            "Frame of the animation; the view stays. A recipe that ends in refit(from=F) keeps the tree "
+            "of frame F and fits its boxes to this one.");
+    const bool is_held = ImGui::IsItemActive();
+    ImGui::SameLine();
+    if (ImGui::Button(memory.playing ? "Pause" : "Play", {width, 0.0f})) memory.playing = !memory.playing;
+    tooltip(context, "Shows one frame after another, each as soon as its structure is built, at most " +
+                         std::to_string(kFramesPerSecond) + " a second.");
+    const bool is_shown = context.input.built != nullptr && !context.input.progress.running &&
+                          context.input.built->scene->spec == context.state.scene;
+    memory.frame_seconds = memory.playing ? memory.frame_seconds + ImGui::GetIO().DeltaTime : 0.0f;
+    if (is_shown && !is_held && memory.frame_seconds * kFramesPerSecond >= 1.0f) {
+        frame = (frame + 1) % wanted->count;
+        memory.frame_seconds = 0.0f;
+    }
+    if (frame != wanted->frame) context.state.scene = with_frame(context.state.scene, frame);
+}
+
 }  // namespace
 
 void scene_part(const Context& context) {
@@ -65,6 +96,7 @@ void scene_part(const Context& context) {
     if (ImGui::Button("Open...", {open_width, 0.0f})) context.memory.ask_open = true;
     tooltip(context, "Ctrl+O: a scene (glTF, OBJ, PLY, STL, ...), a session, or a picture that carries one.");
     if (scene == nullptr) return;
+    frame_slider(context);
     value_row(context, "triangles", grouped(scene->mesh.triangle_count()),
               "Triangles kept: " + grouped(scene->mesh.triangle_count()) + " in " +
                   grouped(scene->mesh.objects.size()) + " objects, " + byte_text(scene->mesh.byte_count()) +

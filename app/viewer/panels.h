@@ -46,6 +46,8 @@ struct PanelMemory {
     std::string path;                         ///< typed in a dialog
     int dragged_handle = 0;                   ///< of the level slider: 0 none, 1 first, 2 last, 3 both
     float drag_offset = 0.0f;
+    bool playing = false;        ///< the frames of an animated scene, one after another
+    float frame_seconds = 0.0f;  ///< since the last one, while playing
 };
 
 /// All panels, in the frame that ImGui::NewFrame began: edits the state, returns what else is asked for.

@@ -58,6 +58,7 @@ Session Viewer::session() const {
 }
 
 bool Viewer::busy() const {
+    if (panel_memory.playing) return true;
     if (job_.progress().running || asked_ != wanted()) return true;
     return tracing_ && !trace_paused_ && !tracer_->state().converged;
 }
@@ -77,7 +78,7 @@ void Viewer::update(bool editing) {
     if (const std::optional<BuildResult> result = job_.take()) take(*result);
     request_build();
     update_trace();
-    undo_.note(state, editing || opening_.has_value());
+    undo_.note(state, editing || opening_.has_value() || panel_memory.playing);
 }
 
 void Viewer::request_build() {

@@ -5,6 +5,7 @@
 #include "core/bvh/binned_sah.h"
 #include "core/bvh/late_split_clipping.h"
 #include "core/bvh/object_median.h"
+#include "core/bvh/refit.h"
 #include "core/bvh/spatial_median.h"
 #include "core/bvh/sweep_sah.h"
 #include "core/kdtree/kd_median.h"
@@ -54,6 +55,7 @@ constexpr CatalogEntry kTransforms[] = {
     row<Spheres>("spheres", "bounding spheres", "Kerbl, lecture, \"Bounding volumes\""),
     row<OrientedBoxes>("oriented-boxes", "oriented boxes",
                        "Kerbl, lecture, \"Bounding volumes\"; Gottschalk et al. 1996"),
+    row<Refit>("refit", "refit to another frame", "Wald, Boulos and Shirley 2007, ACM TOG 26(1)"),
 };
 
 }  // namespace

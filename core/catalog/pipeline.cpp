@@ -7,9 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/rng.h"
 #include "core/base/timer.h"
+#include "core/scene/frame.h"
 
 namespace boxwood {
 namespace {
@@ -79,6 +81,111 @@ std::shared_ptr<const StageResult> run_stage(const std::string& key, StageCache&
     return result;
 }
 
+/// Runs the stages of one recipe, each on the scene that it belongs to. Nothing where the task was stopped.
+class Runner {
+public:
+    Runner(const Recipe& recipe, StageCache& cache, Task& task)
+        : recipe_(recipe), cache_(cache), task_(task) {}
+
+    using Result = std::shared_ptr<const StageResult>;
+    using ScenePointer = std::shared_ptr<const Scene>;
+
+    /// A structure with what it took from the builder on.
+    struct Made {
+        Result result{};
+        std::string key{};
+        double ms = 0.0;
+        Counts skipped{};
+    };
+
+    Result references(const Scene& scene) {
+        Result& made = references_[scene.content_hash];
+        if (made) return made;
+        return made =
+                   run_stage(scene_key(scene) + prefix(recipe_, 1), cache_, task_, [&](StageResult& result) {
+                       result.references =
+                           std::make_shared<References>(recipe_.references.method().make(scene.mesh, task_));
+                       result.byte_count = result.references->refs.capacity() * sizeof(PrimRef);
+                       result.content_hash = hash_of(result.references->refs);
+                   });
+    }
+
+    /// After the builder and the first `count` transforms.
+    std::optional<Made> structure(const ScenePointer& scene, size_t count) {
+        const Result made = references(*scene);
+        if (!made) return std::nullopt;
+        const std::span<const PrimRef> refs = made->references->refs;
+        const std::string own_key = scene_key(*scene) + hex(made->content_hash);
+        if (count == 0) {
+            return finish(Made{.key = own_key}, recipe_.builder,
+                          [&] { return recipe_.builder.method().build(scene->mesh, refs, task_); });
+        }
+        const Stage& stage = recipe_.transforms[count - 1];
+        const std::optional<int> frame = stage.method().input_frame();
+        const ScenePointer input_scene = frame ? frame_for(stage, *frame, scene) : scene;
+        std::optional<Made> input;
+        if (input_scene) input = structure(input_scene, count - 1);
+        if (!input) return std::nullopt;
+        const Structure before = *input->result->structure;
+        if (frame) input->key = own_key + " over {" + input->key + "}";
+        return finish(*std::move(input), stage,
+                      [&] { return stage.method().apply(scene->mesh, refs, before, task_); });
+    }
+
+private:
+    static std::string scene_key(const Scene& scene) {
+        return std::string(kVersion) + " " + hex(scene.content_hash) + " > ";
+    }
+
+    /// The stage's own result, added to what came before it.
+    template <class Run>
+    std::optional<Made> finish(Made made, const Stage& stage, const Run& run) {
+        made.key += " > " + stage.text();
+        made.result = run_stage(made.key, cache_, task_, [&](StageResult& result) {
+            result.structure = run();
+            result.byte_count = result.structure->byte_count();
+        });
+        if (!made.result) return std::nullopt;
+        made.ms += made.result->ms;
+        add(made.skipped, made.result->skipped);
+        return made;
+    }
+
+    /// The scene on the frame that the stage's input is built on. Throws Error where there is none.
+    ScenePointer frame_for(const Stage& stage, int frame, const ScenePointer& scene) {
+        const auto refuse = [&](const std::string& why) {
+            throw Error(ExitCode::WrongUsage, stage.text() + ": " + why);
+        };
+        if (recipe_.references.text() != kWholeReferences) {
+            refuse("whole triangles are needed, " + std::string(recipe_.references.entry().id) +
+                   " makes pieces, which are those of one frame");
+        }
+        const std::optional<SceneFrame> shown = scene_frame(scene->spec);
+        if (shown && shown->frame == frame) return scene;
+        std::string spec;
+        try {
+            spec = with_frame(scene->spec, frame);
+        } catch (const Error& error) {
+            refuse(error.what());
+        }
+        const Result opened = run_stage("scene " + spec, cache_, task_, [&](StageResult& result) {
+            result.scene = open_scene(spec, task_);
+            result.byte_count = result.scene->mesh.byte_count();
+        });
+        if (!opened) return nullptr;
+        if (opened->scene->mesh.source_prim != scene->mesh.source_prim) {
+            refuse("\"" + to_utf8(spec) + "\" has other triangles than \"" + to_utf8(scene->spec) +
+                   "\": some were left out on one frame alone");
+        }
+        return opened->scene;
+    }
+
+    const Recipe& recipe_;
+    StageCache& cache_;
+    Task& task_;
+    std::map<uint64_t, Result> references_;  ///< by scene: needed again by each stage, kept or not
+};
+
 }  // namespace
 
 std::shared_ptr<const StageResult> StageCache::find(const std::string& key) {
@@ -125,44 +232,26 @@ uint64_t StageCache::run_count() const {
 
 std::optional<Built> run_recipe(const Recipe& recipe, std::shared_ptr<const Scene> scene, StageCache& cache,
                                 Task& task, bool with_levels) {
-    const Mesh& mesh = scene->mesh;
-    std::string key = std::string(kVersion) + " " + hex(scene->content_hash) + " > ";
-    const auto made = run_stage(key + prefix(recipe, 1), cache, task, [&](StageResult& result) {
-        result.references = std::make_shared<References>(recipe.references.method().make(mesh, task));
-        result.byte_count = result.references->refs.capacity() * sizeof(PrimRef);
-        result.content_hash = hash_of(result.references->refs);
-    });
+    Runner runner(recipe, cache, task);
+    const auto made = runner.references(*scene);
     if (!made) return std::nullopt;
-    const std::span<const PrimRef> refs = made->references->refs;
+    const std::optional<Runner::Made> last = runner.structure(scene, recipe.transforms.size());
+    if (!last) return std::nullopt;
+    const Structure structure = *last->result->structure;
     Counts skipped = made->skipped;
-
-    key += hex(made->content_hash);
-    double build_ms = 0.0;
-    std::shared_ptr<const StageResult> last;
-    for (size_t i = 0; i <= recipe.transforms.size(); ++i) {
-        key += " > " + (i == 0 ? recipe.builder : recipe.transforms[i - 1]).text();
-        last = run_stage(key, cache, task, [&](StageResult& result) {
-            result.structure =
-                i == 0 ? recipe.builder.method().build(mesh, refs, task)
-                       : recipe.transforms[i - 1].method().apply(mesh, refs, *last->structure, task);
-            result.byte_count = result.structure->byte_count();
-        });
-        if (!last) return std::nullopt;
-        build_ms += last->ms;
-        add(skipped, last->skipped);
-    }
+    add(skipped, last->skipped);
 
     std::shared_ptr<const LevelTable> levels;
     if (with_levels) {
-        const auto listed = run_stage(key + " > levels", cache, task, [&](StageResult& result) {
-            result.levels = std::make_shared<LevelTable>(make_level_table(last->structure->list_nodes()));
+        const auto listed = run_stage(last->key + " > levels", cache, task, [&](StageResult& result) {
+            result.levels = std::make_shared<LevelTable>(make_level_table(structure.list_nodes()));
             result.byte_count = result.levels->byte_count();
         });
         if (!listed) return std::nullopt;
         levels = listed->levels;
     }
-    return Built{std::move(scene),  recipe,   made->references, *last->structure,
-                 std::move(levels), made->ms, build_ms,         std::move(skipped)};
+    return Built{std::move(scene),  recipe,   made->references, structure,
+                 std::move(levels), made->ms, last->ms,         std::move(skipped)};
 }
 
 }  // namespace boxwood

@@ -12,11 +12,12 @@
 
 namespace boxwood {
 
-/// Result of one stage, with what it cost and left out. Exactly one of the first three is set.
+/// Result of one stage, with what it cost and left out. Exactly one of the first four is set.
 struct StageResult {
     std::shared_ptr<const References> references;  ///< of the references stage
     std::optional<Structure> structure;            ///< of the builder or a transform
     std::shared_ptr<const LevelTable> levels;      ///< of the structure; made when it is first asked for
+    std::shared_ptr<const Scene> scene;            ///< another frame of the scene, for TakesInputOfFrame
     uint64_t content_hash = 0;                     ///< of the references
     double ms = 0.0;
     size_t byte_count = 0;
@@ -64,9 +65,11 @@ struct Built {
 
 /// Runs the stages that `cache` does not hold. References are kept under the scene's hash and their stage's
 /// text, structures under the hash of the references and the texts from the builder on: where another
-/// threshold gives the same references, nothing is built again. Nothing if task.stop was requested before it
-/// was done. With `with_levels` the node list is made too, as a stage of its own. task.done and task.total
-/// are those of the stage that runs.
+/// threshold gives the same references, nothing is built again. The input of a TakesInputOfFrame is run on
+/// its own frame of the scene, which is opened and kept like a stage; its structure is kept under both
+/// frames' references. Throws Error (WrongUsage) where the scene has no such frame or the references are not
+/// whole. Nothing if task.stop was requested before it was done. With `with_levels` the node list is made
+/// too, as a stage of its own. task.done and task.total are those of the stage that runs.
 std::optional<Built> run_recipe(const Recipe& recipe, std::shared_ptr<const Scene> scene, StageCache& cache,
                                 Task& task, bool with_levels = false);
 

@@ -33,6 +33,9 @@ struct BuiltInScene {
     const char* description;  ///< one sentence
     const char* options;      ///< "tris=N" or ""
     void (*make)(const SceneOptions& options, Scene& scene, Task& task);
+    /// Animated: option "frame" chooses one of the frames 0 to frame_count - 1, after which frame 0 comes
+    /// again; all have the same triangles in the same order. 0: not animated.
+    int frame_count = 0;
 };
 /// All built-in scenes, in the order of the documentation.
 const std::vector<BuiltInScene>& built_in_scenes();

@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -38,6 +39,14 @@ concept Transform = std::copyable<T> && AccelerationStructure<typename T::Input>
     { c.apply(mesh, refs, input, task) } -> std::same_as<typename T::Output>;
 };
 
+/// A transform whose input is built on another frame of an animated scene, by the stages before it: says on
+/// which. The mesh and the references that it gets are those of the frame asked for, whose triangles are the
+/// same ones in the same order. It takes whole boxes alone: a piece of a triangle is a piece on one frame.
+template <class T>
+concept TakesInputOfFrame = Transform<T> && requires(const T& c) {
+    { c.input_frame() } -> std::same_as<int>;
+};
+
 /// One stage of a recipe with its parameters, of any kind. Of the three functions that run it exactly one
 /// applies: the catalog's table says which.
 class StageMethod {
@@ -49,6 +58,8 @@ public:
     virtual Structure build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const = 0;
     virtual Structure apply(const Mesh& mesh, std::span<const PrimRef> refs, const Structure& input,
                             Task& task) const = 0;
+    /// The frame that a transform's input is built on (see TakesInputOfFrame); nothing: the one asked for.
+    virtual std::optional<int> input_frame() const = 0;
 };
 
 /// Gives a plain struct of parameters the interface above.
@@ -74,6 +85,10 @@ public:
             return Structure(method_.apply(mesh, refs, *concrete, task));
         }
         return not_this_kind<Structure>();
+    }
+    std::optional<int> input_frame() const override {
+        if constexpr (TakesInputOfFrame<T>) return method_.input_frame();
+        return std::nullopt;
     }
 
 private:

@@ -8,7 +8,8 @@
 
 namespace boxwood {
 
-/// Every reference maker with every builder of the catalog, and every transform on what it takes.
+/// Every reference maker with every builder of the catalog, and every transform on what it takes; not those
+/// that need an animated scene.
 inline std::vector<std::string> all_recipes() {
     std::vector<std::string> recipes;
     for (const CatalogEntry& references : reference_catalog()) {
@@ -16,7 +17,7 @@ inline std::vector<std::string> all_recipes() {
             const std::string text = std::string(references.id) + " > " + builder.id;
             recipes.push_back(text);
             for (const CatalogEntry& transform : transform_catalog()) {
-                if (std::string(transform.input) == builder.output)
+                if (std::string(transform.input) == builder.output && !transform.make()->input_frame())
                     recipes.push_back(text + " > " + transform.id);
             }
         }

@@ -12,6 +12,11 @@ namespace boxwood {
 void make_atrium(const SceneOptions& options, Scene& scene, Task& task);
 /// A ship of long thin hull plates with small detail, turned by 45 degrees about (1, 1, 1).
 void make_spaceship(const SceneOptions& options, Scene& scene, Task& task);
+/// A room of a few huge triangles, finely cut furniture, and parts that move: doors, drawers, a chair, a fan,
+/// a mixer, a ball, a thrown spoon, a lamp, a pendulum. Option frame: 0 to kKitchenFrames - 1, 24 a second;
+/// the motion is a loop. Objects that move have names that begin with "moving"; each of their parts is rigid.
+inline constexpr int kKitchenFrames = 120;
+void make_kitchen(const SceneOptions& options, Scene& scene, Task& task);
 /// The Cornell box: room, light and two blocks.
 void make_cornell(const SceneOptions& options, Scene& scene, Task& task);
 /// Two long slanting triangles whose boxes overlap.
