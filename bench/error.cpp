@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "bench/double_path.h"
 #include "bench/error_judge.h"
 #include "bench/ray_sets.h"
+#include "bench/timing.h"
 #include "core/base/rng.h"
 #include "core/base/timer.h"
 
@@ -19,17 +19,6 @@ namespace boxwood::bench {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// Milliseconds of processor time that the process has used.
-double process_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-double median_of(std::vector<double> values) {
-    if (values.empty()) return kNan;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    if (values.size() % 2 == 1) return *middle;
-    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 /// One who casts: a recipe's structure in one way.
 struct Caster {

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Draws what `boxwood bench error --json FILE` measured.
+"""Draws what `boxwood bench error`, `amortize` and `refit` measured: the files of --json FILE.
 
     bench/plots.py FILE... -o FOLDER
 
 Pictures, each where the rows have what it needs:
+    amortize-SCENE.png build plus trace against rays, and what share of the best rate that is, by total time
+    refit-SCENE.png    refit against rebuild by frame: times, SAH cost, rays per second
     error-speed.png    rays per second against largest error and wrong answers, with the Pareto front
     error-time.png     build time + N rays against largest error
     error-bytes.png    bytes against largest error
@@ -11,7 +13,7 @@ Pictures, each where the rows have what it needs:
     error-scale.png    wrong answers against scale  (rows of --series scale)
     error-offset.png   wrong answers against offset (rows of --series offset)
 
-Rows of several scenes are one point for each structure and contestant: geometric means of rates, times and bytes,
+Rows of `error` of several scenes are one point for each structure and contestant: geometric means of rates, times and bytes,
 the largest of errors. Needs matplotlib (Debian: python3-matplotlib).
 """
 import argparse
@@ -26,12 +28,23 @@ RAY_COUNTS = (1e5, 1e6, 1e7)
 
 
 def read_rows(files):
-    rows = []
+    """All rows of each command."""
+    rows = {}
     for name in files:
         with open(name, encoding="utf-8") as file:
-            rows += json.load(file)["rows"]
+            report = json.load(file)
+        rows.setdefault(report["command"], []).extend(report["rows"])
+    return rows
+
+
+def error_rows(rows):
     rows = [row for row in rows if "contestant" in row and "rays_kind" in row]
     return [row for row in rows if row["t_error_ulps"] is not None]  # null: an infinite t for a finite one
+
+
+def file_word(scene):
+    """The scene's name as a part of a file's name."""
+    return "".join(c if c.isalnum() or c in "-_." else "_" for c in os.path.basename(scene))
 
 
 def geometric_mean(values):
@@ -227,9 +240,79 @@ class Plots:
         self.failures("offset", "offset of the scene, in extents")
 
 
+def recipe_style(recipes, recipe):
+    index = recipes.index(recipe)
+    return {"color": f"C{index % 10}", "marker": MARKERS[index % len(MARKERS)], "markersize": 4}
+
+
+def save_with_legend(pyplot, figure, axes, path):
+    handles, labels = axes.get_legend_handles_labels()
+    columns = 3 if len(labels) > 4 else 2
+    lines = -(-len(labels) // columns)
+    figure.tight_layout(rect=(0, (0.3 + 0.22 * lines) / figure.get_figheight(), 1, 1))
+    figure.legend(handles, labels, loc="lower center", ncol=columns, frameon=False, fontsize=9)
+    figure.savefig(path, dpi=120)
+    pyplot.close(figure)
+    print(path)
+
+
+def draw_amortize(pyplot, rows, folder):
+    for scene in dict.fromkeys(row["scene"] for row in rows):
+        own = [row for row in rows if row["scene"] == scene]
+        kinds = list(dict.fromkeys(row["rays_kind"] for row in own))
+        recipes = list(dict.fromkeys(row["recipe"] for row in own))
+        figure, axes = pyplot.subplots(len(kinds), 2, squeeze=False, figsize=(11, 4.2 * len(kinds) + 1.2))
+        for row, kind in enumerate(kinds):
+            for recipe in recipes:
+                line = sorted((r for r in own if r["rays_kind"] == kind and r["recipe"] == recipe),
+                              key=lambda r: r["rays"])
+                style = recipe_style(recipes, recipe)
+                seconds = [r["total_ms"] / 1000 for r in line]
+                axes[row][0].plot([r["rays"] for r in line], seconds, label=recipe, **style)
+                axes[row][1].plot(seconds, [100 * r["efficiency"] for r in line], **style)
+            axes[row][0].set_yscale("log")
+            axes[row][0].set_xlabel(f"{kind} rays")
+            axes[row][0].set_ylabel("build + trace, seconds")
+            axes[row][1].set_xlabel(f"build + trace of {kind} rays, seconds")
+            axes[row][1].set_ylabel("rays per second of total time,\n% of the fastest structure's rate")
+            for panel in axes[row]:
+                panel.set_xscale("log")
+                panel.grid(True, which="major", color="#dddddd", linewidth=0.6)
+        figure.suptitle(f"{scene}: {own[0]['triangles']:,} triangles")
+        save_with_legend(pyplot, figure, axes[0][0], os.path.join(folder, f"amortize-{file_word(scene)}.png"))
+
+
+def draw_refit(pyplot, rows, folder):
+    panels = (("build_ms", "refit_ms", "ms"), ("sah_cost", "refit_sah_cost", "SAH cost"),
+              ("primary_mrays_per_s", "refit_primary_mrays_per_s", "million primary rays per second"),
+              ("diffuse_mrays_per_s", "refit_diffuse_mrays_per_s", "million diffuse rays per second"))
+    for scene in dict.fromkeys(row["scene"].split("@frame=")[0] for row in rows):
+        own = [row for row in rows if row["scene"].split("@frame=")[0] == scene]
+        recipes = list(dict.fromkeys(row["recipe"] for row in own))
+        figure, axes = pyplot.subplots(2, 2, squeeze=False, figsize=(11, 9))
+        for place, (built, refitted, label) in enumerate(panels):
+            panel = axes[place // 2][place % 2]
+            for recipe in recipes:
+                line = sorted((r for r in own if r["recipe"] == recipe), key=lambda r: r["frame"])
+                frames = [r["frame"] for r in line]
+                style = recipe_style(recipes, recipe)
+                panel.plot(frames, [r[built] for r in line], label=f"{recipe}, rebuilt", **style)
+                panel.plot(frames, [r[refitted] for r in line], label=f"{recipe}, refitted", linestyle="--",
+                           **style)
+            panel.set_xlabel("frame")
+            panel.set_ylabel(label)
+            panel.grid(True, which="major", color="#dddddd", linewidth=0.6)
+            if label == "ms":
+                panel.set_yscale("log")
+            else:
+                panel.set_ylim(bottom=0)
+        figure.suptitle(f"{scene}: {own[0]['triangles']:,} triangles, refitted from frame {own[0]['from']}")
+        save_with_legend(pyplot, figure, axes[0][0], os.path.join(folder, f"refit-{file_word(scene)}.png"))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("files", nargs="+", metavar="FILE", help="JSON of boxwood bench error")
+    parser.add_argument("files", nargs="+", metavar="FILE", help="JSON of boxwood bench")
     parser.add_argument("-o", "--output", default=".", metavar="FOLDER", help="where the pictures go (default: .)")
     arguments = parser.parse_args()
     try:
@@ -240,11 +323,18 @@ def main():
     matplotlib.use("Agg")
     from matplotlib import pyplot
     rows = read_rows(arguments.files)
-    if not rows:
-        print("plots.py: no rows of `boxwood bench error` in the files", file=sys.stderr)
+    errors = error_rows(rows.get("bench error", []))
+    amortized, refits = rows.get("bench amortize", []), rows.get("bench refit", [])
+    if not errors and not amortized and not refits:
+        print("plots.py: no rows of `boxwood bench error`, `amortize` or `refit` in the files", file=sys.stderr)
         return 3
     os.makedirs(arguments.output, exist_ok=True)
-    Plots(pyplot, rows, arguments.output).draw()
+    if errors:
+        Plots(pyplot, errors, arguments.output).draw()
+    if amortized:
+        draw_amortize(pyplot, amortized, arguments.output)
+    if refits:
+        draw_refit(pyplot, refits, arguments.output)
     return 0
 
 

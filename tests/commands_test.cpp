@@ -219,5 +219,51 @@ TEST_F(Program, BenchInteractTimesStepsAndStops) {
     for (const Json& row : rows) EXPECT_LE(row["median_ms"].get<double>(), row["worst_ms"].get<double>());
 }
 
+constexpr const char* kQuickly = " -n 100 --rounds 2 --round-ms 0.2 --builds 1 --json -";
+
+TEST_F(Program, BenchLectureSetsNumbersBesideTheLecturesWords) {
+    const Ended result = run(std::string("bench lecture -s cornell") + kQuickly);
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    const Json json = Json::parse(result.output);
+    EXPECT_EQ(json["command"], "bench lecture");
+    EXPECT_TRUE(json["scenes"][0]["uniform"].is_boolean());
+    ASSERT_GE(json["rows"].size(), 4u);
+    ASSERT_EQ(json["words"].size(), json["rows"].size());
+    EXPECT_EQ(json["rows"][0]["recipe"], "none");
+    EXPECT_EQ(json["words"][0]["memory_lecture"], "none");
+    for (const Json& row : json["rows"])
+        for (const char* key :
+             {"bytes", "bytes_per_triangle", "build_ms", "primary_mrays_per_s", "diffuse_mrays_per_s"})
+            EXPECT_TRUE(row[key].is_number()) << row << key;
+    const Ended table = run("bench lecture -s cornell -r none -n 100 --rounds 1 --round-ms 0.2");
+    EXPECT_NE(table.output.find("by our rule"), std::string::npos) << table.output;
+}
+
+TEST_F(Program, BenchAmortizeSaysWhoWinsForEachDecadeOfRays) {
+    const Ended result = run(std::string("bench amortize -s cornell -r none -r bvh-sweep-sah") + kQuickly);
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    const Json json = Json::parse(result.output);
+    EXPECT_EQ(json["rows"].size(), 2u * 2u * 7u);
+    ASSERT_EQ(json["winners"].size(), 14u);
+    EXPECT_EQ(json["winners"][0]["rays"], 10000);
+    EXPECT_EQ(json["winners"][6]["rays"], 10000000000);
+}
+
+TEST_F(Program, BenchRefitNeedsAnAnimatedSceneAndWhatCanBeRefitted) {
+    const Ended result =
+        run(std::string("bench refit -r bvh-spatial-median --every 100 --from 20") + kQuickly);
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    const Json rows = Json::parse(result.output)["rows"];
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[1]["scene"], "kitchen@frame=100");
+    EXPECT_EQ(rows[1]["from"], 20);
+    expect_refusal("bench refit -s cornell", 2, "has no frames");
+    expect_refusal("bench refit -r none", 2, "refit needs a binary BVH");
+    expect_refusal("bench refit -r 'evh > bvh-binned-sah'", 2, "whole triangles");
+    expect_refusal("stats cornell -r 'bvh-sweep-sah > refit(from=3)'", 2, "scene 'cornell' has no frames");
+    expect_refusal("stats kitchen@frame=3 -r 'esc > bvh-sweep-sah > refit'", 2, "whole triangles are needed");
+    expect_refusal("stats kitchen@frame=120", 2, "a whole number was expected, 0 to 119");
+}
+
 }  // namespace
 }  // namespace boxwood

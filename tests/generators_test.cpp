@@ -24,6 +24,8 @@ Scene make(const std::string& name, const SceneOptions& options = {}) {
 
 Scene make_terrain_of(const std::string& tris) { return make("terrain", {.values = {{"tris", tris}}}); }
 
+Mesh kitchen_at(int frame) { return make("kitchen", {.values = {{"frame", std::to_string(frame)}}}).mesh; }
+
 /// Longest edge divided by the height over it: 1.15 is equilateral.
 double edge_to_height(const Triangle& t) {
     const DVec3 a(t.a), b(t.b), c(t.c);
@@ -77,6 +79,8 @@ TEST(Generators, GiveTheSameBitsEverywhere) {
     const auto hash = [](const std::string& name) { return content_hash(make(name).mesh); };
     EXPECT_EQ(hash("atrium"), 12361005846590520974ull);
     EXPECT_EQ(hash("spaceship"), 10775120960556069127ull);
+    EXPECT_EQ(hash("kitchen"), 2860062209948682101ull);
+    EXPECT_EQ(content_hash(kitchen_at(50)), 12731308886786660154ull);
     EXPECT_EQ(hash("cornell"), 15223261984855378444ull);
     EXPECT_EQ(hash("two-triangles"), 12860931664810968192ull);
     const uint64_t terrain = content_hash(make_terrain_of("20k").mesh);
@@ -135,8 +139,6 @@ TEST(Spaceship, IsTurnedSoThatItsLongPlatesFillTheirBoxes) {
     EXPECT_GT(turned, 10.0);
     EXPECT_GT(turned, 20.0 * straight);
 }
-
-Mesh kitchen_at(int frame) { return make("kitchen", {.values = {{"frame", std::to_string(frame)}}}).mesh; }
 
 bool is_moving(const Mesh& mesh, uint32_t prim) {
     return mesh.objects[mesh.object[prim]].name.starts_with("moving ");

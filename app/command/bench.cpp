@@ -10,8 +10,11 @@ namespace {
 
 /// One suite of measurements, with options of its own.
 constexpr Command kSuites[] = {
+    {"amortize", "from how many rays on a better structure pays for its build", run_bench_amortize},
     {"error", "run time against error: both modes and plain double precision", run_bench_error},
     {"interact", "how quickly the program answers", run_bench_interact},
+    {"lecture", "the lecture's comparison of structures: memory, build, rays", run_bench_lecture},
+    {"refit", "refit against rebuild, by frame of an animated scene", run_bench_refit},
 };
 
 void print_help() {
