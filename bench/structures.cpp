@@ -9,6 +9,7 @@
 #include "bench/ray_sets.h"
 #include "bench/timing.h"
 #include "core/base/parallel.h"
+#include "core/brute_force/brute_force.h"
 #include "core/measure/tree_stats.h"
 
 namespace boxwood::bench {
@@ -63,7 +64,7 @@ public:
         if (built) {
             const TreeStats stats = tree_stats(make_level_table(built->structure.list_nodes()));
             row.is_built = true;
-            row.is_list = stats.nodes <= 1;
+            row.is_list = std::string(built->structure.family()) == BruteForce::kFamily;
             row.family = built->structure.family();
             row.bytes = built->structure.byte_count();
             row.references = stats.references;

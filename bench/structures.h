@@ -24,7 +24,7 @@ struct StructureSettings {
 struct MeasuredStructure {
     std::string recipe;
     std::string family;
-    bool is_list = false;   ///< brute force: one node
+    bool is_list = false;   ///< brute force
     bool is_built = false;  ///< false: given up, nothing below is known
     uint64_t bytes = 0;     ///< of the structure alone
     uint64_t references = 0;

@@ -70,8 +70,8 @@ TEST_P(EveryBuiltInScene, ComesWithACameraThatLooksAtIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Generators, EveryBuiltInScene,
-                         testing::Values("atrium", "spaceship", "kitchen", "cornell", "two-triangles",
-                                         "terrain"));
+                         testing::Values("atrium", "spaceship", "kitchen", "mirror-low", "cornell",
+                                         "two-triangles", "terrain"));
 
 /// The hashes are the same for g++ and clang++, any number of threads, and every run. A change of a generator
 /// changes its hash here and its pictures in screenshots/.
@@ -81,6 +81,9 @@ TEST(Generators, GiveTheSameBitsEverywhere) {
     EXPECT_EQ(hash("spaceship"), 10775120960556069127ull);
     EXPECT_EQ(hash("kitchen"), 2860062209948682101ull);
     EXPECT_EQ(content_hash(kitchen_at(50)), 12731308886786660154ull);
+    EXPECT_EQ(hash("mirror-low"), 16913423495154103625ull);
+    EXPECT_EQ(hash("mirror-high"), 874849490886368322ull);
+    EXPECT_EQ(hash("power-plant"), 12738575145653288824ull);
     EXPECT_EQ(hash("cornell"), 15223261984855378444ull);
     EXPECT_EQ(hash("two-triangles"), 12860931664810968192ull);
     const uint64_t terrain = content_hash(make_terrain_of("20k").mesh);
@@ -221,6 +224,60 @@ TEST(Kitchen, RefusesWhatIsNoFrame) {
             EXPECT_NE(std::string(error.what()).find("0 to 119"), std::string::npos) << error.what();
         }
     }
+}
+
+double area_of(const Mesh& mesh) {
+    double area = 0.0;
+    for (uint32_t prim = 0; prim < mesh.triangle_count(); ++prim) {
+        const Triangle t = mesh.triangle(prim);
+        area += 0.5 * glm::length(glm::cross(DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a)));
+    }
+    return area;
+}
+
+TEST(Mirror, IsOneSurfaceAtTheTwoTessellationsOfThePaper) {
+    const Mesh low = make("mirror-low").mesh;
+    Mesh high = make("mirror-high").mesh;
+    EXPECT_NEAR(static_cast<double>(low.triangle_count()), 85651.0, 860.0);
+    EXPECT_NEAR(static_cast<double>(high.triangle_count()), 334080.0, 3400.0);
+    EXPECT_NEAR(area_of(low) / area_of(high), 1.0, 1e-3);
+    const Box a = low.bounds(), b = high.bounds();
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(a.lower[axis], b.lower[axis], 1e-4f);
+        EXPECT_NEAR(a.upper[axis], b.upper[axis], 1e-4f);
+    }
+    ASSERT_EQ(low.objects.size(), high.objects.size());
+    Task task;
+    check_mesh(high, task);
+    EXPECT_TRUE(task.skipped.counts().empty());
+}
+
+TEST(PowerPlant, HasAsManyTrianglesAsThePapersAndMostAreOfPipes) {
+    Scene scene = make("power-plant");
+    Mesh& mesh = scene.mesh;
+    EXPECT_GE(mesh.triangle_count(), 1667578u);
+    EXPECT_LE(mesh.triangle_count(), 1672000u);
+    Task task;
+    check_mesh(mesh, task);
+    EXPECT_TRUE(task.skipped.counts().empty());
+    const Box hall{Vec3(-0.5f), Vec3(72.5f, 27.5f, 36.5f)};
+    EXPECT_TRUE(hall.contains(mesh.bounds()));
+    EXPECT_TRUE(mesh.bounds().contains(Box{scene.camera->target, scene.camera->target}));
+    size_t of_pipes = 0;
+    for (const uint32_t object : mesh.object)
+        for (const char* service : {"steam", "water", "gas", "oil", "fire water", "air"})
+            of_pipes += mesh.objects[object].name == service;
+    EXPECT_GT(static_cast<double>(of_pipes), 0.8 * static_cast<double>(mesh.triangle_count()));
+}
+
+TEST(PowerPlant, StopsWhenAsked) {
+    std::stop_source source;
+    source.request_stop();
+    Task task(source.get_token());
+    Scene scene;
+    for (const BuiltInScene& built_in : built_in_scenes())
+        if (std::string(built_in.name) == "power-plant") built_in.make({}, scene, task);
+    EXPECT_LT(scene.mesh.triangle_count(), 200000u);
 }
 
 TEST(Terrain, RoundsTheNumberOfTrianglesToTheNearestGrid) {

@@ -160,11 +160,15 @@ TEST(InputOfAnotherFrame, IsKeptUnderBothFrames) {
     EXPECT_NE(first->structure.as<Bvh2>()->nodes, other->structure.as<Bvh2>()->nodes);
     run_recipe(from_0, four, cache, task, true);
     EXPECT_EQ(cache.run_count(), 14u);
+    // Another builder before it is another tree.
+    const auto swept = run_recipe(parse_recipe("bvh-binned-sah > refit"), four, cache, task, true);
+    EXPECT_EQ(cache.run_count(), 17u);  // builder, refit, levels
+    EXPECT_NE(swept->levels, first->levels);
     // A plain build of the frame shares the builder's result with a refit to that frame.
     const auto plain = run_recipe(parse_recipe("bvh-spatial-median"), opened("kitchen"), cache, task);
-    EXPECT_EQ(cache.run_count(), 14u);
+    EXPECT_EQ(cache.run_count(), 17u);
     const auto same = run_recipe(from_0, opened("kitchen"), cache, task);
-    EXPECT_EQ(cache.run_count(), 15u);
+    EXPECT_EQ(cache.run_count(), 18u);
     EXPECT_EQ(same->structure.as<Bvh2>()->nodes, plain->structure.as<Bvh2>()->nodes);
 }
 

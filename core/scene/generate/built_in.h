@@ -21,6 +21,13 @@ void make_kitchen(const SceneOptions& options, Scene& scene, Task& task);
 void make_cornell(const SceneOptions& options, Scene& scene, Task& task);
 /// Two long slanting triangles whose boxes overlap.
 void make_two_triangles(const SceneOptions& options, Scene& scene, Task& task);
+/// One CAD surface, the outside mirror of a car, at two tessellations: about 85,651 and 334,080 triangles.
+/// Ernst and Greiner 2007, figure 3.
+void make_mirror_low(const SceneOptions& options, Scene& scene, Task& task);
+void make_mirror_high(const SceneOptions& options, Scene& scene, Task& task);
+/// A hall full of pipes with flanges, bends and valves, on girders and gratings; about 1,667,578 triangles.
+/// Ernst and Greiner 2007, figure 3.
+void make_power_plant(const SceneOptions& options, Scene& scene, Task& task);
 /// Smooth, dense height field. Option tris: about how many triangles, "k" and "M" for thousands and millions.
 void make_terrain(const SceneOptions& options, Scene& scene, Task& task);
 
