@@ -1,11 +1,12 @@
-// The edges of boxes as quads of constant width in pixels: 12 edges of four vertices
+// Pieces of outlines, or the edges of boxes, as quads of constant width in pixels: 12 segments of four vertices
 // each.
 #include "frame.glsl"
 #include "box_instance.glsl"
 
-layout(std430, binding = 4) readonly buffer Drawn { float drawn[]; };
+layout(std430, binding = 4) readonly buffer Drawn { uint drawn[]; };
 
-const int kByLevel = 0, kByReferences = 1, kBySahShare = 2, kByPrimitive = 3, kOneColor = 4;
+const int kByLevel = 0, kByReferences = 1, kBySahShare = 2, kByPrimitive = 3, kOneColor = 4,
+          kByVisits = 5;
 const int kPaletteSize = 64;
 const float kBias = 6.0;  // pixels towards the eye, so that an edge on a surface stays visible
 const float kDotSize = 4.0;  // line widths: a smaller box is one square, since its edges would fill it
@@ -15,6 +16,9 @@ uniform vec2 scale;  // value of the palette's first and last colour
 uniform int is_logarithmic;
 uniform vec3 palette[kPaletteSize];
 uniform vec3 one_color;
+uniform vec3 empty_color;      // of empty cells
+uniform vec3 unvisited_color;
+uniform uint piece_words;  // of a piece
 uniform float line_width;  // pixels
 uniform float casing;      // pixels on each side of the line
 uniform float depth_fade;  // share of their opacity that the farthest boxes lose
@@ -42,12 +46,16 @@ vec3 hue_color(uint prim) {
     return linear_from_srgb(mix(vec3(1.0), rgb, 0.65));
 }
 
-vec3 box_color(NodeBox box) {
-    if (coloring == kByLevel) return palette_color(float(box.word >> 1));
-    if (coloring == kByReferences) return palette_color(box.references);
-    if (coloring == kBySahShare) return palette_color(box.sah_share);
+const float kUnvisitedOpacity = 0.3;
+
+vec3 box_color(NodeBox box, uint visits) {
     if (coloring == kByPrimitive) return hue_color(box.word);
-    return one_color;
+    if (coloring == kOneColor) return one_color;
+    if (coloring == kByVisits) return visits > 0u ? palette_color(float(visits)) : unvisited_color;
+    if (is_empty(box)) return empty_color;
+    if (coloring == kByLevel) return palette_color(float(level_of(box)));
+    if (coloring == kByReferences) return palette_color(box.references);
+    return palette_color(box.sah_share);
 }
 
 // Boxes of a few pixels would hide all behind them, and each other: they are fainter, and have no casing.
@@ -70,7 +78,11 @@ bool clip_near(inout vec3 a, inout vec3 b) {
 }
 
 void main() {
-    NodeBox box = READ_BOX(drawn, uint(gl_InstanceID));
+    uint piece = piece_words * uint(gl_InstanceID);
+    NodeBox box = READ_BOX(drawn, piece);
+    uint visits = drawn[piece + 9u] & kVisitsOfMark;
+    uint word = drawn[piece + 10u];
+    uint segments = word & kPieceSegments;
     int edge = gl_VertexID >> 2;
     bool is_end = (gl_VertexID & 1) != 0;
     float side = (gl_VertexID & 2) != 0 ? 1.0 : -1.0;
@@ -81,7 +93,7 @@ void main() {
     vec3 center = (view * vec4(0.5 * (box.lower + box.upper), 1.0)).xyz;
     float size = size_on_screen(box, -center.z);
     bool is_dot = size < kDotSize * line_width;
-    if (is_dot && edge != 0) return;
+    if (is_dot ? edge != 0 || (word & kFirstPiece) == 0u : segments > 0u && uint(edge) >= segments) return;
 
     int axis = edge >> 2;
     vec3 from = box.lower;
@@ -89,6 +101,11 @@ void main() {
     from[(axis + 2) % 3] = (edge & 2) != 0 ? box.upper[(axis + 2) % 3] : box.lower[(axis + 2) % 3];
     vec3 to = from;
     to[axis] = box.upper[axis];
+    if (segments > 0u) {
+        uint at = piece + kPieceHeadWords + kSegmentWords * uint(edge);
+        from = READ_VEC3(drawn, at);
+        to = READ_VEC3(drawn, at + 3u);
+    }
     vec3 a = is_dot ? center : (view * vec4(from, 1.0)).xyz;
     vec3 b = is_dot ? center : (view * vec4(to, 1.0)).xyz;
     if (!clip_near(a, b)) return;
@@ -108,5 +125,6 @@ void main() {
     vec2 offset = side * reach * vec2(-along.y, along.x) + half_width * (is_end ? along : -along);
     vec4 pulled = project(eye + vec3(0.0, 0.0, kBias * pixel_size(-eye.z)));
     gl_Position = vec4(clip.xy + offset * 2.0 / viewport.xy * clip.w, pulled.z / pulled.w * clip.w, clip.w);
-    color = vec4(srgb_from_linear(box_color(box)), opacity_of(size, -eye.z));
+    float strength = coloring == kByVisits && visits == 0u ? kUnvisitedOpacity : 1.0;
+    color = vec4(srgb_from_linear(box_color(box, visits)), strength * opacity_of(size, -eye.z));
 }

@@ -4,11 +4,13 @@
 #include "box_bins.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Boxes { float boxes[]; };
+layout(std430, binding = 0) readonly buffer Boxes { uint boxes[]; };
 
 uniform uint end;          // boxes [0, end) of this chunk are looked at
 uniform uint first_level;  // inner nodes above it are not in the selection
 uniform uint leaves_above;
+uniform uint show_empty;     // empty cells too
+uniform uint only_visited;   // boxes that no ray visited are not in the selection
 
 const uint kLargestBin = 255u;
 const float kBinsPerOctave = 15.0;
@@ -40,10 +42,16 @@ float size_on_screen(NodeBox box) {
 void main() {
     uint index = gl_GlobalInvocationID.x;
     if (index >= end) return;
-    NodeBox box = READ_BOX(boxes, index);
-    bool is_leaf = (box.word & 1u) != 0u;
-    bool is_selected = (box.word >> 1) >= first_level || (leaves_above != 0u && is_leaf);
+    NodeBox box = READ_BOX(boxes, kBoxWords * index);
+    uint mark = mark_of(index);
+    bool is_selected = level_of(box) >= first_level || (leaves_above != 0u && is_leaf(box));
+    if ((mark & kHiddenMark) != 0u) is_selected = false;
+    if (only_visited != 0u && (mark & kVisitsOfMark) == 0u) is_selected = false;
     uint bin = 0u;
+    if (is_selected && show_empty == 0u && is_empty(box)) {
+        atomicAdd(empty, 1u);
+        is_selected = false;
+    }
     if (is_selected) {
         float size = size_on_screen(box);
         if (size == 0.0) {
@@ -53,7 +61,7 @@ void main() {
         } else {
             bin = 1u + uint(min(log2(size) * kBinsPerOctave, float(kLargestBin) - 1.0));
             atomicAdd(visible, 1u);
-            atomicAdd(histogram[bin], 1u);
+            atomicAdd(histogram[bin], piece_count(index));
         }
     }
     bins[index] = bin;

@@ -8,6 +8,7 @@ layout(location = 0) out vec4 result;
 
 uniform vec3 red_color;
 uniform vec3 selection_color;
+uniform vec3 shared_color;
 uniform vec3 scene_up;
 uniform int fill;         // 0: the edges alone
 uniform float wire_width;  // pixels; 0: no edges
@@ -19,6 +20,7 @@ const vec3 kLight = vec3(0.30, 0.52, 0.80);  // in eye space, of length 1
 vec3 base_color() {
     if (triangle.z == 1u) return red_color;
     if (triangle.z == 2u) return selection_color;
+    if (triangle.z == 3u) return shared_color;
     return linear_from_srgb(unpackUnorm4x8(triangle.x).rgb);
 }
 

@@ -1,23 +1,25 @@
-// Copies the visible boxes, in their order, to where they are drawn from; of too many the largest on screen.
-// Three steps, each a dispatch: the threshold of size; how many boxes each group has; the copies.
+// Copies the pieces of the visible boxes, in their order, to where they are drawn from; of too many those of the
+// boxes that are largest on screen. Three steps, each a dispatch: the threshold of size; how many pieces each
+// group has; the copies.
 #include "box_instance.glsl"
 #include "box_bins.glsl"
 
 layout(local_size_x = 256) in;
-layout(std430, binding = 0) readonly buffer Boxes { float boxes[]; };
+layout(std430, binding = 0) readonly buffer Boxes { uint boxes[]; };
 layout(std430, binding = 3) buffer Groups { uvec2 group_counts[]; };  // above the threshold, and at it
-layout(std430, binding = 4) writeonly buffer Drawn { float drawn[]; };
-layout(std430, binding = 5) writeonly buffer Command { uint command[5]; };
+layout(std430, binding = 4) writeonly buffer Drawn { uint drawn[]; };
+layout(std430, binding = 7) readonly buffer Segments { uint segments[]; };
 
 const uint kThresholdStep = 0u, kCountStep = 1u;
-const uint kIndicesPerBox = 72u;
+const uint kIndicesPerPiece = 72u;
 const uint kBoxesPerLane = 16u;
 const uint kLanes = 256u;
 
 uniform uint step_number;
 uniform uint end;          // boxes of this chunk
 uniform uint first_group;  // of this chunk
-uniform uint budget;
+uniform uint budget;       // pieces
+uniform uint piece_words;  // of a piece, with room for segments where there are outlines
 
 shared uvec2 lane_counts[kLanes];
 shared uvec2 lane_offsets[kLanes];
@@ -35,16 +37,30 @@ void find_threshold() {
         }
         above += count;
     }
-    command[0] = kIndicesPerBox;
-    command[1] = min(visible, budget);
+    command[0] = kIndicesPerPiece;
+    command[1] = threshold != 0u ? budget : above;
     command[2] = 0u;
     command[3] = 0u;
     command[4] = 0u;
 }
 
+// The box's pieces, above the threshold or at it.
 uvec2 classify(uint index) {
     uint bin = index < end ? bins[index] : 0u;
-    return uvec2(bin > threshold ? 1u : 0u, bin != 0u && bin == threshold ? 1u : 0u);
+    if (bin == 0u || bin < threshold) return uvec2(0u);
+    uint pieces = piece_count(index);
+    return bin > threshold ? uvec2(pieces, 0u) : uvec2(0u, pieces);
+}
+
+void copy_piece(uint index, uint piece, uint to) {
+    uint at = piece_words * to;
+    for (uint word = 0u; word < kBoxWords; ++word) drawn[at + word] = boxes[kBoxWords * index + word];
+    uint first = has_outlines != 0u ? segment_begin[index] + kSegmentsOfPiece * piece : 0u;
+    uint count = min(segment_count(index) - kSegmentsOfPiece * piece, kSegmentsOfPiece);
+    drawn[at + 9u] = mark_of(index);
+    drawn[at + 10u] = count | (piece == 0u ? kFirstPiece : 0u);
+    for (uint word = 0u; word < kSegmentWords * count; ++word)
+        drawn[at + kPieceHeadWords + word] = segments[kSegmentWords * first + word];
 }
 
 void main() {
@@ -80,11 +96,11 @@ void main() {
     uvec2 offset = lane_offsets[lane];
     for (uint i = 0u; i < kBoxesPerLane; ++i) {
         uvec2 one = classify(begin + i);
-        if (one.x != 0u || (one.y != 0u && offset.y < rest)) {
-            uint to = 9u * (offset.x + min(offset.y, rest));
-            uint from = 9u * (begin + i);
-            for (uint word = 0u; word < 9u; ++word) drawn[to + word] = boxes[from + word];
-        }
+        uint room = min(offset.y, rest);
+        uint pieces = one.x + min(one.y, rest - room);
+        if (pieces > 0u) atomicAdd(drawn_boxes, 1u);
+        for (uint piece = 0u; piece < pieces; ++piece)
+            copy_piece(begin + i, piece, offset.x + room + piece);
         offset += one;
     }
 }

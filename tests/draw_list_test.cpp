@@ -68,7 +68,9 @@ TEST(DrawList, FollowsTheState) {
     state.show_mesh = false;
     state.show_boxes = false;
     state.interface_scale = 2.0f;
-    const DrawList list = make_draw_list(state, levels, values, {.node = 3, .prim = 5});
+    state.node = 3;
+    state.prim = 5;
+    const DrawList list = make_draw_list(state, levels, values);
     EXPECT_EQ(list.mesh, MeshLook::Hidden);
     EXPECT_FALSE(list.boxes);
     EXPECT_EQ(list.selected, levels.list.nodes[3].bounds);

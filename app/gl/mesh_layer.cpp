@@ -9,7 +9,7 @@
 namespace boxwood {
 namespace {
 
-constexpr uint32_t kChunkSize = 1u << 22;  // triangles; a multiple of 32, see pack_flags
+constexpr uint32_t kChunkSize = 1u << 22;  // triangles
 
 struct TriangleData {
     uint32_t color;   ///< sRGB bytes, red lowest
@@ -38,11 +38,12 @@ uint32_t pack_color(const Vec3& linear) {
            uint32_t{srgb_byte(linear.z)} << 16 | 0xff000000u;
 }
 
-std::vector<uint32_t> pack_flags(std::span<const uint8_t> flags) {
-    std::vector<uint32_t> words((flags.size() + 31) / 32, 0u);
-    for (size_t i = 0; i < flags.size(); ++i) {
-        if (flags[i] != 0) words[i / 32] |= 1u << (i % 32);
-    }
+size_t mark_words(size_t triangle_count) { return (triangle_count + 7) / 8; }
+
+/// Four bits for each triangle.
+std::vector<uint32_t> pack_marks(std::span<const uint8_t> marks) {
+    std::vector<uint32_t> words(mark_words(marks.size()), 0u);
+    for (size_t i = 0; i < marks.size(); ++i) words[i / 8] |= uint32_t{marks[i]} << (4 * (i % 8));
     return words;
 }
 
@@ -80,17 +81,17 @@ void MeshLayer::upload(const Mesh& mesh, const UnitSpace& space) {
         });
         chunk.corners = make_buffer(std::as_bytes(std::span(corners)));
         chunk.triangles = make_buffer(std::as_bytes(std::span(triangles)));
-        chunk.split = make_empty_buffer((chunk.count + 31) / 32 * sizeof(uint32_t));
+        chunk.marks = make_empty_buffer(mark_words(chunk.count) * sizeof(uint32_t));
         chunk.vertex_array = make_corner_array(chunk.corners);
         chunks_.push_back(std::move(chunk));
         ++upload_count_;
     }
 }
 
-void MeshLayer::upload_split_flags(std::span<const uint8_t> flags) {
+void MeshLayer::upload_marks(std::span<const uint8_t> marks) {
     for (Chunk& chunk : chunks_) {
-        const std::vector<uint32_t> words = pack_flags(flags.subspan(chunk.first, chunk.count));
-        chunk.split = make_buffer(std::as_bytes(std::span(words)));
+        const std::vector<uint32_t> words = pack_marks(marks.subspan(chunk.first, chunk.count));
+        chunk.marks = make_buffer(std::as_bytes(std::span(words)));
         ++upload_count_;
     }
 }
@@ -100,7 +101,7 @@ void MeshLayer::draw(const Program& program, uint32_t selected) const {
         const bool is_here = selected >= chunk.first && selected - chunk.first < chunk.count;
         program.set("selected", is_here ? static_cast<int>(selected - chunk.first) : -1);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, chunk.triangles.name());
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, chunk.split.name());
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, chunk.marks.name());
         glBindVertexArray(chunk.vertex_array.name());
         glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * chunk.count));
     }
@@ -109,7 +110,7 @@ void MeshLayer::draw(const Program& program, uint32_t selected) const {
 size_t MeshLayer::byte_count() const {
     size_t bytes = 0;
     for (const Chunk& chunk : chunks_) {
-        bytes += chunk.count * (3 * sizeof(Vec3) + sizeof(TriangleData)) + (chunk.count + 31) / 32 * 4;
+        bytes += chunk.count * (3 * sizeof(Vec3) + sizeof(TriangleData)) + mark_words(chunk.count) * 4;
     }
     return bytes;
 }

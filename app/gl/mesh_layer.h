@@ -10,12 +10,12 @@
 
 namespace boxwood {
 
-/// The surface on the GPU: three corners for each triangle, its colour, its normal, and whether it is split.
+/// The surface on the GPU: three corners for each triangle, its colour, its normal, and its mark.
 class MeshLayer {
 public:
     void upload(const Mesh& mesh, const UnitSpace& space);
-    /// flags[triangle]: 1 if it has more than one reference.
-    void upload_split_flags(std::span<const uint8_t> flags);
+    /// TriangleMark bits of each triangle.
+    void upload_marks(std::span<const uint8_t> marks);
 
     /// Draws all triangles with the program in use, which is `program`; selected: triangle or kNoIndex.
     void draw(const Program& program, uint32_t selected) const;
@@ -26,7 +26,7 @@ public:
 private:
     struct Chunk {
         VertexArray vertex_array;
-        Buffer corners, triangles, split;
+        Buffer corners, triangles, marks;
         uint32_t first = 0;
         uint32_t count = 0;
     };

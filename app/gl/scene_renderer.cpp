@@ -13,7 +13,7 @@ namespace boxwood {
 namespace {
 
 /// What boxes.vert calls its ways to colour a box. The first three are those of BoxColor.
-enum class Coloring : int { Level, References, SahShare, Primitive, One };
+enum class Coloring : int { Level, References, SahShare, Primitive, One, Visits };
 
 constexpr float kHiddenOpacity = 0.22f;          // of what lies behind the surface, see-through
 constexpr float kHiddenSelectionOpacity = 0.5f;  // of the selected box
@@ -27,12 +27,24 @@ int coloring_of(BoxColor meaning) {
             return static_cast<int>(Coloring::References);
         case BoxColor::SahShare:
             return static_cast<int>(Coloring::SahShare);
+        case BoxColor::Visits:
+            return static_cast<int>(Coloring::Visits);
     }
     return static_cast<int>(Coloring::One);
 }
 
-Vec3 srgb_of(const Vec3& linear) {
-    return Vec3(srgb_byte(linear.x), srgb_byte(linear.y), srgb_byte(linear.z)) / 255.0f;
+/// The outlines of the nodes, in level order.
+Outlines outlines_of(const LevelTable& levels, const UnitSpace& space) {
+    Outlines outlines;
+    if (levels.outline_begin.empty()) return outlines;
+    outlines.segments.reserve(levels.list.outlines.size());
+    outlines.begin.push_back(0);
+    for (const uint32_t node : levels.order) {
+        for (const OutlineSegment& segment : levels.outline(node))
+            outlines.segments.push_back({space.from_world(segment.from), space.from_world(segment.to)});
+        outlines.begin.push_back(static_cast<uint32_t>(outlines.segments.size()));
+    }
+    return outlines;
 }
 
 void blend_over() {
@@ -52,16 +64,18 @@ struct SceneRenderer::Impl {
     PictureRenderer picture;
     VertexArray no_vertices = make_vertex_array();
     Buffer frame = make_dynamic_buffer(sizeof(FrameUniforms));
-    Buffer selected_box = make_dynamic_buffer(sizeof(BoxInstance));
+    FewOutlines few;
     UnitSpace space;
     MeshLayer mesh;
     BoxLayer nodes;
     BoxLayer references;
+    std::vector<uint32_t> split_prims;  ///< of each box of `references`
 
     void draw_background(const DrawList& list);
     void draw_mesh(const DrawList& list, const Vec3& up);
     void draw_boxes(const DrawList& list);
-    void draw_selected_box(const DrawList& list);
+    void draw_over_all(const DrawList& list);
+    void draw_few(const Box& box, std::span<const OutlineSegment> outline, const Vec3& color);
     template <class Draw>
     void draw_in_passes(bool see_through, float hidden_opacity, const Draw& draw);
 };
@@ -82,22 +96,41 @@ void SceneRenderer::set_boxes(const LevelTable& levels, const BoxValues& values)
             for (size_t i = begin; i < end; ++i) {
                 const uint32_t node = levels.order[first + i];
                 const NodeView& view = levels.list.nodes[node];
-                const uint32_t leaf_bit = view.kind == NodeKind::Leaf ? 1u : 0u;
                 boxes[i] = {impl_->space.from_world(view.bounds.lower),
                             impl_->space.from_world(view.bounds.upper), values.references[node],
-                            values.sah_share[node], 2 * view.level + leaf_bit};
+                            values.sah_share[node], node_word(view)};
             }
         });
     };
-    impl_->nodes.upload(static_cast<uint32_t>(levels.order.size()), fill);
+    impl_->nodes.upload(static_cast<uint32_t>(levels.order.size()), fill, outlines_of(levels, impl_->space));
+}
+
+void SceneRenderer::set_box_marks(const LevelTable& levels, std::span<const uint32_t> marks) {
+    std::vector<uint32_t> in_order;
+    if (!marks.empty()) {
+        in_order.reserve(levels.order.size());
+        for (const uint32_t node : levels.order) in_order.push_back(marks[node]);
+    }
+    impl_->nodes.set_marks(in_order);
+}
+
+void SceneRenderer::set_triangle_marks(std::span<const uint8_t> marks) {
+    impl_->mesh.upload_marks(marks);
+    std::vector<uint32_t> box_marks;
+    for (const uint32_t prim : impl_->split_prims)
+        box_marks.push_back((marks[prim] & TriangleMark::kHidden) != 0 ? BoxMark::kHidden : 0u);
+    impl_->references.set_marks(box_marks);
 }
 
 void SceneRenderer::set_references(std::span<const PrimRef> refs, size_t triangle_count) {
     const std::vector<uint8_t> flags = split_flags(refs, triangle_count);
-    impl_->mesh.upload_split_flags(flags);
+    impl_->mesh.upload_marks(flags);
     std::vector<uint32_t> split_refs;
+    impl_->split_prims.clear();
     for (size_t i = 0; i < refs.size(); ++i) {
-        if (flags[refs[i].prim] != 0) split_refs.push_back(static_cast<uint32_t>(i));
+        if (flags[refs[i].prim] == 0) continue;
+        split_refs.push_back(static_cast<uint32_t>(i));
+        impl_->split_prims.push_back(refs[i].prim);
     }
     const auto fill = [&](uint32_t first, std::span<BoxInstance> boxes) {
         for (size_t i = 0; i < boxes.size(); ++i) {
@@ -137,7 +170,7 @@ void SceneRenderer::draw(const DrawList& list, const Camera& camera, RenderTarge
     glEnable(GL_DEPTH_TEST);
     impl_->draw_mesh(list, glm::length(camera.up) > 0.0f ? glm::normalize(camera.up) : Vec3(view.up));
     impl_->draw_boxes(list);
-    impl_->draw_selected_box(list);
+    impl_->draw_over_all(list);
     glDisable(GL_DEPTH_TEST);
     if (list.axis_cross) impl_->axis_cross.draw(view, rect.width, rect.height, list.interface_scale);
     target.resolve(rect);
@@ -150,8 +183,8 @@ void SceneRenderer::Impl::draw_background(const DrawList& list) {
         return;
     }
     glDisable(GL_BLEND);
-    background_program.set("top", srgb_of(list.background_top));
-    background_program.set("bottom", srgb_of(list.background_bottom));
+    background_program.set("top", srgb_from_linear(list.background_top));
+    background_program.set("bottom", srgb_from_linear(list.background_bottom));
     background_program.use();
     glBindVertexArray(no_vertices.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -162,6 +195,8 @@ void SceneRenderer::Impl::draw_mesh(const DrawList& list, const Vec3& up) {
     if (only_edges && !list.wire) return;
     mesh_program.set("show_red", list.red ? 1 : 0);
     mesh_program.set("red_color", list.red_color);
+    mesh_program.set("show_shared", list.shared ? 1 : 0);
+    mesh_program.set("shared_color", list.shared_color);
     mesh_program.set("selection_color", list.selection_color);
     mesh_program.set("scene_up", up);
     mesh_program.set("fill", only_edges ? 0 : 1);
@@ -202,36 +237,49 @@ void SceneRenderer::Impl::draw_in_passes(bool see_through, float hidden_opacity,
 void SceneRenderer::Impl::draw_boxes(const DrawList& list) {
     box_program.set("line_width", list.line_width);
     box_program.set("casing", list.line_casing);
-    box_program.set("casing_color", srgb_of(list.casing_color));
+    box_program.set("casing_color", srgb_from_linear(list.casing_color));
     box_program.set("depth_fade", list.depth_fade);
     box_program.set("size_fade", list.size_fade);
     box_program.set("palette", std::span<const Vec3>(list.colors.palette));
     box_program.set("scale", Vec2(static_cast<float>(list.colors.scale.lower),
                                   static_cast<float>(list.colors.scale.upper)));
     box_program.set("is_logarithmic", list.colors.scale.logarithmic ? 1 : 0);
+    box_program.set("empty_color", list.empty_color);
+    box_program.set("unvisited_color", list.unvisited_color);
     box_program.use();
     box_edges.bind();
     box_program.set("coloring", static_cast<int>(Coloring::Primitive));
-    draw_in_passes(list.see_through, kHiddenOpacity, [&] { references.draw(); });
+    draw_in_passes(list.see_through, kHiddenOpacity, [&] { references.draw(box_program); });
     box_program.set("coloring", coloring_of(list.colors.meaning));
-    draw_in_passes(list.see_through, kHiddenOpacity, [&] { nodes.draw(); });
+    draw_in_passes(list.see_through, kHiddenOpacity, [&] { nodes.draw(box_program); });
 }
 
-void SceneRenderer::Impl::draw_selected_box(const DrawList& list) {
-    if (!list.selected || list.selected->is_empty()) return;
-    const BoxInstance box = {.lower = space.from_world(list.selected->lower),
-                             .upper = space.from_world(list.selected->upper)};
-    glNamedBufferSubData(selected_box.name(), 0, sizeof(box), &box);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, selected_box.name());
+void SceneRenderer::Impl::draw_few(const Box& box, std::span<const OutlineSegment> outline,
+                                   const Vec3& color) {
+    std::vector<UnitSegment> segments;
+    for (const OutlineSegment& segment : outline)
+        segments.push_back({space.from_world(segment.from), space.from_world(segment.to)});
+    few.set({space.from_world(box.lower), space.from_world(box.upper)}, segments);
+    box_program.set("one_color", color);
+    draw_in_passes(true, kHiddenSelectionOpacity, [&] { few.draw(box_program); });
+}
+
+void SceneRenderer::Impl::draw_over_all(const DrawList& list) {
     box_program.set("coloring", static_cast<int>(Coloring::One));
-    box_program.set("one_color", list.selection_color);
     box_program.set("line_width", 2.0f * list.line_width);
     box_program.set("depth_fade", 0.0f);
     box_program.set("size_fade", 0.0f);
     box_program.use();
     box_edges.bind();
-    draw_in_passes(true, kHiddenSelectionOpacity,
-                   [] { glDrawElements(GL_TRIANGLES, BoxEdges::kIndexCount, GL_UNSIGNED_SHORT, nullptr); });
+    if (list.selected && !list.selected->is_empty())
+        draw_few(*list.selected, list.selected_outline, list.selection_color);
+    if (list.ray.empty()) return;
+    Box box;
+    for (const OutlineSegment& segment : list.ray) {
+        box.extend(segment.from);
+        box.extend(segment.to);
+    }
+    draw_few(box, list.ray, list.ray_color);
 }
 
 BoxCounts SceneRenderer::box_counts() const { return impl_->nodes.counts(); }

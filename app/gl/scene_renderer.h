@@ -25,10 +25,14 @@ public:
 
     /// The surface; forgets boxes and references.
     void set_mesh(const Mesh& mesh);
-    /// The node boxes, one buffer in level order.
+    /// The node boxes, or their outlines, one buffer in level order.
     void set_boxes(const LevelTable& levels, const BoxValues& values);
     /// Which primitives are split (red) and the boxes of their references.
     void set_references(std::span<const PrimRef> refs, size_t triangle_count);
+    /// A BoxMark for each node of the levels that set_boxes had; none: nothing hidden, nothing visited.
+    void set_box_marks(const LevelTable& levels, std::span<const uint32_t> marks);
+    /// TriangleMark bits for each triangle, in place of what set_references found out.
+    void set_triangle_marks(std::span<const uint8_t> marks);
     /// A picture that stands behind boxes and lines in place of the background; uploaded where `version`
     /// differs from the last one's; versions begin with 1. Nothing: clear_picture().
     void set_picture(const Image& image, uint64_t version);

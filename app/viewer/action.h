@@ -27,11 +27,20 @@ struct DismissMessage {};  ///< the user has read it
 struct FocusPoint {
     Vec2 pointer;  ///< in the window, in pixels
 };
+struct FocusSelection {};  ///< the selected triangle or node
+struct PickNode {
+    Vec2 pointer;  ///< in the window, in pixels; the same place again: the next node there
+};
+struct PickRay {
+    Vec2 pointer;
+};
+struct CancelCheck {};
 struct StoreView {
     int slot;  ///< 0 to 8
 };
 
 using Action = std::variant<OpenPath, SaveSession, CopySession, PasteSession, CopyText, UndoStep, RedoStep,
-                            CancelWork, BuildAgain, DismissMessage, FocusPoint, StoreView>;
+                            CancelWork, BuildAgain, DismissMessage, FocusPoint, FocusSelection, PickNode,
+                            PickRay, CancelCheck, StoreView>;
 
 }  // namespace boxwood

@@ -57,6 +57,10 @@ BoxValues make_box_values(const NodeList& list) {
         values.references.push_back(static_cast<float>(references[i]));
         values.sah_share.push_back(total > 0.0 ? static_cast<float>(terms[i] / total) : 0.0f);
     }
+    for (const uint32_t prim : list.ref_prims) {
+        if (prim >= values.prim_leaves.size()) values.prim_leaves.resize(size_t{prim} + 1, 0);
+        ++values.prim_leaves[prim];
+    }
     values.references_range = range_of(values.references);
     values.sah_share_range = range_of(values.sah_share);
     return values;

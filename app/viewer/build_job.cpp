@@ -4,6 +4,21 @@
 #include <utility>
 
 namespace boxwood {
+namespace {
+
+/// Triangles of one reference that are in several leaves.
+uint64_t count_shared(std::span<const PrimRef> refs, const BoxValues& values) {
+    uint64_t count = 0;
+    for (size_t i = 0; i < refs.size(); ++i) {
+        const uint32_t prim = refs[i].prim;
+        const bool has_others =
+            (i > 0 && refs[i - 1].prim == prim) || (i + 1 < refs.size() && refs[i + 1].prim == prim);
+        count += !has_others && prim < values.prim_leaves.size() && values.prim_leaves[prim] > 1 ? 1 : 0;
+    }
+    return count;
+}
+
+}  // namespace
 
 BuildJob::BuildJob(std::shared_ptr<StageCache> cache) : cache_(std::move(cache)) {
     thread_ = std::jthread([this](const std::stop_token& quit) { work(quit); });
@@ -97,6 +112,7 @@ BuildResult BuildJob::run(const BuildRequest& request, Task& task) {
         std::optional<Built> built = run_recipe(recipe, scene_, *cache_, task, /*with_levels=*/true);
         if (!built) return result;
         result.values = std::make_shared<BoxValues>(make_box_values(built->levels->list));
+        result.shared_count = count_shared(built->references->refs, *result.values);
         result.tree = std::make_shared<TreeStats>(tree_stats(*built->levels));
         result.built = std::make_shared<Built>(std::move(*built));
     } catch (const Error& error) {

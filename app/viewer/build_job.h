@@ -32,9 +32,10 @@ struct BuildResult {
     std::shared_ptr<const Built> built;       ///< with levels; null: not asked for, or see error
     std::shared_ptr<const BoxValues> values;  ///< of built->levels
     std::shared_ptr<const TreeStats> tree;    ///< of built->levels
-    std::string error;                        ///< a sentence; empty: all is well
-    ExitCode exit_code = ExitCode::Done;      ///< of the error
-    double ms = 0.0;                          ///< from the request to here
+    uint64_t shared_count = 0;  ///< triangles in several leaves though the references stage made one
+    std::string error;          ///< a sentence; empty: all is well
+    ExitCode exit_code = ExitCode::Done;  ///< of the error
+    double ms = 0.0;                      ///< from the request to here
 };
 
 /// What the job does now.

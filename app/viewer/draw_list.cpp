@@ -1,6 +1,7 @@
 #include "app/viewer/draw_list.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/render/image.h"
 
@@ -28,10 +29,15 @@ void set_theme(DrawList& list, Theme theme) {
     list.wire_color = linear_from_srgb(is_dark ? Vec3(0.06f, 0.07f, 0.09f) : Vec3(0.15f, 0.17f, 0.20f));
     list.casing_color = linear_from_srgb(is_dark ? Vec3(0.02f, 0.03f, 0.05f) : Vec3(1.0f));
     list.red_color = linear_from_srgb(Vec3(0.93f, 0.16f, 0.12f));
+    list.shared_color = linear_from_srgb(Vec3(0.16f, 0.47f, 0.95f));
+    list.empty_color = linear_from_srgb(is_dark ? Vec3(0.80f, 0.80f, 0.84f) : Vec3(0.45f, 0.45f, 0.50f));
+    list.unvisited_color = list.empty_color;
+    list.ray_color = linear_from_srgb(is_dark ? Vec3(1.0f, 0.62f, 0.12f) : Vec3(0.85f, 0.38f, 0.0f));
     list.selection_color = linear_from_srgb(is_dark ? Vec3(1.0f, 0.55f, 0.95f) : Vec3(0.80f, 0.0f, 0.70f));
 }
 
-ColorScale make_colors(const ViewerState& state, int last_level, const BoxValues& values) {
+ColorScale make_colors(const ViewerState& state, int last_level, const BoxValues& values,
+                       const Visits* visits) {
     ColorScale colors;
     colors.meaning = state.box_color;
     const MapPart part = state.theme == Theme::Dark ? kDarkPart : kLightPart;
@@ -53,8 +59,44 @@ ColorScale make_colors(const ViewerState& state, int last_level, const BoxValues
         case BoxColor::SahShare:
             colors.scale = {share_least, share_most, true};
             break;
+        case BoxColor::Visits: {
+            // One visit alone has the last colour, which stands out most.
+            const double most = visits != nullptr ? static_cast<double>(visits->most) : 1.0;
+            colors.scale = {most > 1.0 ? 1.0 : 0.5, std::max(most, 1.0), true};
+            break;
+        }
     }
     return colors;
+}
+
+/// Parameter of the point where the ray leaves the box, or where it is nearest to its middle.
+double exit_of(const Ray& ray, const Box& box) {
+    double exit = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto d = static_cast<double>(ray.direction[axis]);
+        if (d == 0.0) continue;
+        const auto wall = static_cast<double>(d > 0.0 ? box.upper[axis] : box.lower[axis]);
+        exit = std::min(exit, (wall - static_cast<double>(ray.origin[axis])) / d);
+    }
+    const DVec3 direction(ray.direction);
+    const double nearest =
+        glm::dot(box.center() - DVec3(ray.origin), direction) / glm::dot(direction, direction);
+    return std::max({exit, nearest, 0.0});
+}
+
+/// The ray up to its hit, or through the scene, and a cross at the hit.
+std::vector<OutlineSegment> ray_lines(const PickedRay& picked, const Hit& hit, const Box& scene) {
+    constexpr double kCrossSize = 0.008;  // of the distance from the ray's origin
+    const Ray ray = ray_of(picked);
+    const double end = hit.is_hit() ? static_cast<double>(hit.t) : exit_of(ray, scene);
+    const DVec3 step = end * DVec3(ray.direction), point = DVec3(ray.origin) + step;
+    std::vector<OutlineSegment> lines{{0, ray.origin, Vec3(point)}};
+    for (int axis = 0; axis < 3 && hit.is_hit(); ++axis) {
+        DVec3 arm(0.0);
+        arm[axis] = kCrossSize * glm::length(step);
+        lines.push_back({0, Vec3(point - arm), Vec3(point + arm)});
+    }
+    return lines;
 }
 
 /// Digits in groups of three.
@@ -88,12 +130,13 @@ BoxSelection select_boxes(const LevelTable& levels, const LevelRange& range, boo
 }
 
 DrawList make_draw_list(const ViewerState& state, const LevelTable& levels, const BoxValues& values,
-                        const Selection& selection) {
+                        const CastResults& cast) {
     DrawList list;
     const bool is_traced = state.traced == TracedView::Over;
     list.mesh = !state.show_mesh ? MeshLook::Hidden : is_traced ? MeshLook::Depth : MeshLook::Shaded;
     list.wire = state.show_wire && list.mesh != MeshLook::Depth;
     list.red = state.show_red;
+    list.shared = state.show_shared;
     list.reference_boxes = state.show_reference_boxes;
     list.see_through = state.see_through;
     list.interface_scale = state.interface_scale;
@@ -104,24 +147,33 @@ DrawList make_draw_list(const ViewerState& state, const LevelTable& levels, cons
     list.size_fade = kSizeFade;
     set_theme(list, state.theme);
     const int deepest = std::max(static_cast<int>(levels.level_count()) - 1, 0);
-    list.colors = make_colors(state, std::clamp(state.levels.last, 0, deepest), values);
+    list.colors = make_colors(state, std::clamp(state.levels.last, 0, deepest), values, cast.visits.get());
     if (state.show_boxes && levels.level_count() > 0) {
         list.boxes = select_boxes(levels, state.levels, state.leaves_above);
+        list.boxes->empty_cells = state.show_empty;
+        list.boxes->only_visited = state.box_color == BoxColor::Visits && !state.show_unvisited;
     }
-    if (selection.node < levels.list.nodes.size()) list.selected = levels.list.nodes[selection.node].bounds;
-    list.selected_prim = selection.prim;
+    if (state.node < levels.list.nodes.size()) {
+        list.selected = levels.list.nodes[state.node].bounds;
+        const std::span<const OutlineSegment> outline = levels.outline(state.node);
+        list.selected_outline.assign(outline.begin(), outline.end());
+    }
+    list.selected_prim = state.prim;
+    if (state.ray && !levels.list.nodes.empty())
+        list.ray = ray_lines(*state.ray, cast.ray_hit, levels.list.nodes[0].bounds);
     return list;
 }
 
 std::string describe(const BoxCounts& counts) {
-    if (counts.candidates == 0) return "no boxes";
+    const std::string empty = counts.empty > 0 ? "; " + grouped(counts.empty) + " empty, not drawn" : "";
+    if (counts.candidates == 0) return "no boxes" + empty;
     std::string text = grouped(counts.drawn);
     if (counts.drawn != counts.candidates) text += " of " + grouped(counts.candidates);
     text += counts.candidates == 1 ? " box" : " boxes";
     if (counts.over_budget > 0) text += ", the largest on screen";
     if (counts.outside > 0) text += "; " + grouped(counts.outside) + " outside the view";
     if (counts.under_pixel > 0) text += "; " + grouped(counts.under_pixel) + " under a pixel";
-    return text;
+    return text + empty;
 }
 
 }  // namespace boxwood

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/viewer/box_values.h"
 #include "app/viewer/state.h"
+#include "app/viewer/visits.h"
 #include "core/base/box.h"
 #include "core/base/vec.h"
 #include "core/render/color_map.h"
@@ -32,13 +34,28 @@ struct ColorScale {
     Vec3 color(double value) const;
 };
 
+/// What is known of a node's box, or of a reference's, beyond what was uploaded with it: one word for each.
+struct BoxMark {
+    static constexpr uint32_t kHidden = 0x80000000u;
+    static constexpr uint32_t kVisits = 0x7fffffffu;  ///< bits of the number of visits
+};
+
+/// What is known of a triangle: bits.
+struct TriangleMark {
+    static constexpr uint8_t kSplit = 1;   ///< more than one reference out of the references stage
+    static constexpr uint8_t kShared = 2;  ///< in several leaves, though the references stage made one
+    static constexpr uint8_t kHidden = 4;
+};
+
 /// Boxes that are drawn: of the instance buffer in level order the entries [0, end), without the inner nodes
 /// of levels above `first_level`, without their leaves too unless `leaves_above`.
 struct BoxSelection {
     uint32_t first_level = 0;
     uint32_t end = 0;
     bool leaves_above = true;
-    uint32_t count = 0;  ///< boxes in it
+    uint32_t count = 0;         ///< boxes in it; hidden, empty and not visited ones too
+    bool empty_cells = true;    ///< leaves without primitives are drawn too
+    bool only_visited = false;  ///< boxes whose mark says that no ray visited them are not drawn
 
     bool operator==(const BoxSelection&) const = default;
 };
@@ -47,12 +64,15 @@ struct BoxSelection {
 struct DrawList {
     MeshLook mesh = MeshLook::Shaded;
     bool wire = false;
-    bool red = true;  ///< primitives with more than one reference in red
+    bool red = true;      ///< primitives with more than one reference in red
+    bool shared = false;  ///< primitives of which the builder made more references in a colour of their own
     std::optional<BoxSelection> boxes;
-    bool reference_boxes = false;  ///< of split primitives, coloured by primitive
-    bool see_through = false;      ///< hidden parts of boxes dimmer, in place of absent
-    ColorScale colors;             ///< of `boxes`
-    std::optional<Box> selected;   ///< drawn over all
+    bool reference_boxes = false;                  ///< of split primitives, coloured by primitive
+    bool see_through = false;                      ///< hidden parts of boxes dimmer, in place of absent
+    ColorScale colors;                             ///< of `boxes`
+    std::optional<Box> selected;                   ///< drawn over all
+    std::vector<OutlineSegment> selected_outline;  ///< drawn in place of the box `selected`
+    std::vector<OutlineSegment> ray;               ///< a picked ray, drawn over all
     uint32_t selected_prim = kNoIndex;
     uint32_t box_budget = 200000;  ///< of each kind of boxes; the largest on screen are drawn
     float line_width = 1.5f;
@@ -66,6 +86,10 @@ struct DrawList {
     Vec3 wire_color{0.0f};
     Vec3 casing_color{0.0f};
     Vec3 red_color{1.0f, 0.0f, 0.0f};
+    Vec3 shared_color{0.0f, 0.0f, 1.0f};
+    Vec3 empty_color{0.5f};      ///< of empty cells
+    Vec3 unvisited_color{0.5f};  ///< where colours say visits
+    Vec3 ray_color{1.0f};
     Vec3 selection_color{1.0f};
     bool axis_cross = true;
 };
@@ -77,24 +101,18 @@ struct BoxCounts {
     uint32_t outside = 0;      ///< outside the view
     uint32_t under_pixel = 0;  ///< smaller than a pixel
     uint32_t over_budget = 0;  ///< visible, not drawn: smaller on screen than those drawn
+    uint32_t empty = 0;        ///< empty cells that are not to be drawn; no candidates
 
     bool operator==(const BoxCounts&) const = default;
-};
-
-/// What a node selected in a panel or picked in the picture adds to the frame.
-struct Selection {
-    uint32_t node = kNoIndex;
-    uint32_t prim = kNoIndex;
-
-    bool operator==(const Selection&) const = default;
 };
 
 /// The boxes of a range of levels, with the leaves above it if asked for.
 BoxSelection select_boxes(const LevelTable& levels, const LevelRange& range, bool leaves_above);
 
-/// The frame's 3D view of a state. `levels` and `values` belong together; without levels no box is drawn.
+/// The frame's 3D view of a state. `levels`, `values` and `cast` belong together; without levels no box is
+/// drawn.
 DrawList make_draw_list(const ViewerState& state, const LevelTable& levels, const BoxValues& values,
-                        const Selection& selection = {});
+                        const CastResults& cast = {});
 
 /// "200,000 of 3,100,000 boxes, the largest on screen", and what else was left out.
 std::string describe(const BoxCounts& counts);

@@ -31,7 +31,25 @@ void Frame::upload(const Viewer& viewer) {
         scene_renderer_.set_boxes(*uploaded_built_->levels, *viewer.values());
         scene_renderer_.set_references(uploaded_built_->references->refs,
                                        uploaded_scene_->mesh.triangle_count());
+        uploaded_visibility_.reset();
     }
+    upload_marks(viewer);
+}
+
+void Frame::upload_marks(const Viewer& viewer) {
+    if (!uploaded_built_ || !viewer.visibility()) return;
+    const bool is_other = uploaded_visibility_ != viewer.visibility();
+    const std::shared_ptr<const Visits>& visits = viewer.cast().visits;
+    if (is_other) {
+        scene_renderer_.set_triangle_marks(triangle_marks(uploaded_built_->references->refs, *viewer.values(),
+                                                          *viewer.visibility(),
+                                                          uploaded_scene_->mesh.triangle_count()));
+    }
+    if (is_other || uploaded_visits_ != visits)
+        scene_renderer_.set_box_marks(*uploaded_built_->levels,
+                                      box_marks(*viewer.visibility(), visits.get()));
+    uploaded_visibility_ = viewer.visibility();
+    uploaded_visits_ = visits;
 }
 
 DrawList Frame::draw_list(const Viewer& viewer) const {
@@ -39,7 +57,7 @@ DrawList Frame::draw_list(const Viewer& viewer) const {
     static const BoxValues kNoValues{};
     const bool has_boxes = viewer.built() != nullptr;
     return make_draw_list(viewer.state, has_boxes ? *viewer.built()->levels : kNoLevels,
-                          has_boxes ? *viewer.values() : kNoValues);
+                          has_boxes ? *viewer.values() : kNoValues, viewer.cast());
 }
 
 void Frame::run_interface(Viewer& viewer, const FrameLayout& layout) {
@@ -47,7 +65,11 @@ void Frame::run_interface(Viewer& viewer, const FrameLayout& layout) {
     ImGui::NewFrame();
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     PanelInput input = viewer.panel_input(Vec2(mouse.x, mouse.y));
-    input.scale = draw_list(viewer).colors;
+    const DrawList shown = draw_list(viewer);
+    input.scale = shown.colors;
+    input.empty_color = srgb_from_linear(shown.empty_color);
+    input.unvisited_color = srgb_from_linear(shown.unvisited_color);
+    input.shared_color = srgb_from_linear(shown.shared_color);
     input.boxes = boxes_;
     input.reference_boxes = reference_boxes_;
     input.gpu_bytes = scene_renderer_.byte_count();

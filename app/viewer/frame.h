@@ -31,6 +31,7 @@ public:
 
 private:
     void upload(const Viewer& viewer);
+    void upload_marks(const Viewer& viewer);
     void run_interface(Viewer& viewer, const FrameLayout& layout);
     void draw_pictures(const Viewer& viewer, const FrameLayout& layout);
     DrawList draw_list(const Viewer& viewer) const;
@@ -44,6 +45,8 @@ private:
     bool editing_ = false;
     std::shared_ptr<const Scene> uploaded_scene_;
     std::shared_ptr<const Built> uploaded_built_;
+    std::shared_ptr<const Visibility> uploaded_visibility_;
+    std::shared_ptr<const Visits> uploaded_visits_;
     BoxCounts boxes_, reference_boxes_;
 };
 

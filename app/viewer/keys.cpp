@@ -5,19 +5,21 @@
 #include <algorithm>
 #include <array>
 
+#include "app/viewer/panel_parts.h"
 #include "app/viewer/ui_context.h"
 
 namespace boxwood {
 namespace {
 
-constexpr std::array<KeyHelp, 35> kHelp{{
+constexpr auto kHelp = std::to_array<KeyHelp>({
     {"Camera", "left drag", "orbit"},
     {"Camera", "middle drag", "pan"},
     {"Camera", "wheel", "zoom to the pointer"},
     {"Camera", "right drag", "look around"},
     {"Camera", "right + W A S D", "fly; E up, Q down"},
     {"Camera", "Shift, Alt", "fly ten times faster, slower"},
-    {"Camera", "F, double click", "focus the point under the pointer"},
+    {"Camera", "F", "focus the selection, or the point"},
+    {"Camera", "double click", "focus the point under the pointer"},
     {"Camera", "Home", "whole scene"},
     {"Camera", "X Y Z", "along an axis; Shift: from behind"},
     {"Camera", "1 ... 9", "recall a view; Ctrl: store it"},
@@ -28,11 +30,21 @@ constexpr std::array<KeyHelp, 35> kHelp{{
     {"Show", "W", "wire"},
     {"Show", "R", "subdivided triangles in red"},
     {"Show", "P", "boxes of the pieces"},
+    {"Show", "E", "empty cells"},
+    {"Show", "D", "triangles in several leaves in blue"},
     {"Show", "K", "boxes see-through"},
     {"Show", "T", "ray-traced view: beside, over, off"},
     {"Show", "H", "heat map"},
+    {"Show", "V", "boxes by visits: picked ray, view, off"},
     {"Show", "Tab", "panels"},
     {"Show", "?", "this list"},
+    {"Nodes", "click", "select; again: the next one there"},
+    {"Nodes", "Shift + click", "cast the ray of that pixel"},
+    {"Nodes", "arrow keys", "parent, first child, siblings"},
+    {"Nodes", "I", "isolate the selected node; again: all"},
+    {"Nodes", "Delete", "hide it; Shift: put all back"},
+    {"Nodes", "Esc", "select nothing; forget the ray"},
+    {"Nodes", "N", "levels, node, verify in the right panel"},
     {"Levels", "[  ]", "level range up, down the tree"},
     {"Levels", "Shift + [  ]", "its last level alone"},
     {"Levels", "L", "leaves above the range"},
@@ -46,7 +58,7 @@ constexpr std::array<KeyHelp, 35> kHelp{{
     {"Session", "Esc", "cancel a build; close what is open"},
     {"Panels", "Ctrl + click", "type a slider's value"},
     {"Panels", "right click", "put a changed value back"},
-}};
+});
 
 bool pressed(int key) { return ImGui::IsKeyPressed(key, /*repeat=*/false); }
 
@@ -66,6 +78,18 @@ void toggle(bool& value, int key) {
     if (pressed(key)) value = !value;
 }
 
+/// Boxes by visits of the picked ray, of the whole view, by level.
+void next_visits(ViewerState& state) {
+    if (state.box_color != BoxColor::Visits) {
+        state.box_color = BoxColor::Visits;
+        state.visit_rays = VisitRays::Picked;
+    } else if (state.visit_rays == VisitRays::Picked) {
+        state.visit_rays = VisitRays::Picture;
+    } else {
+        state.box_color = BoxColor::Level;
+    }
+}
+
 void handle_toggles(ViewerState& state) {
     toggle(state.show_boxes, 'B');
     toggle(state.show_mesh, 'M');
@@ -74,7 +98,11 @@ void handle_toggles(ViewerState& state) {
     toggle(state.show_reference_boxes, 'P');
     toggle(state.see_through, 'K');
     toggle(state.leaves_above, 'L');
+    toggle(state.show_empty, 'E');
+    toggle(state.show_shared, 'D');
     toggle(state.show_panels, key::kTab);
+    if (pressed('N')) state.side = static_cast<SidePanel>((static_cast<int>(state.side) + 1) % 3);
+    if (pressed('V')) next_visits(state);
     if (pressed('T')) {
         state.traced = state.traced == TracedView::Off      ? TracedView::Beside
                        : state.traced == TracedView::Beside ? TracedView::Over
@@ -97,7 +125,10 @@ void handle_views(ViewerState& state, const PanelInput& input, const Camera& cam
         }
     }
     if (pressed(key::kHome)) state.camera.reset();
-    if (pressed('F')) actions.push_back(FocusPoint{Vec2(io.MousePos.x, io.MousePos.y)});
+    const bool is_selected = state.node != kNoIndex || state.prim != kNoIndex;
+    if (pressed('F'))
+        actions.push_back(is_selected ? Action(FocusSelection{})
+                                      : Action(FocusPoint{Vec2(io.MousePos.x, io.MousePos.y)}));
     if (pressed('O')) {
         state.camera = camera;
         state.camera->orthographic = !camera.orthographic;
@@ -109,6 +140,30 @@ void handle_views(ViewerState& state, const PanelInput& input, const Camera& cam
     for (size_t i = 0; i < state.stored_views.size(); ++i) {
         if (pressed('1' + static_cast<int>(i)) && state.stored_views[i]) state.camera = state.stored_views[i];
     }
+}
+
+/// Selects a neighbour of the selected node, hides or isolates it.
+void handle_nodes(ViewerState& state, const PanelInput& input) {
+    if (pressed('I')) panel::isolate_selected(state);
+    if (pressed(key::kDelete)) {
+        if (ImGui::GetIO().KeyShift) {
+            panel::put_nodes_back(state);
+        } else {
+            panel::hide_selected(state);
+        }
+    }
+    if (input.facts == nullptr || input.facts->node != state.node) return;
+    const NodeFacts& facts = *input.facts;
+    const auto go_to = [&](uint32_t node) {
+        state.node = node;
+        state.prim = kNoIndex;
+    };
+    const auto at = std::ranges::find(facts.siblings, facts.node);
+    if (pressed(key::kUp) && facts.view.parent != kNoIndex) go_to(facts.view.parent);
+    if (pressed(key::kDown) && !facts.children.empty()) go_to(facts.children.front());
+    if (at == facts.siblings.end()) return;
+    if (pressed(key::kLeft) && at != facts.siblings.begin()) go_to(*(at - 1));
+    if (pressed(key::kRight) && at + 1 != facts.siblings.end()) go_to(*(at + 1));
 }
 
 /// Signs that stand on different keys of different keyboards come as characters.
@@ -144,6 +199,10 @@ void handle_keys(ViewerState& state, const PanelInput& input, PanelMemory& memor
             actions.push_back(CancelWork{});
         } else if (!input.message.empty()) {
             actions.push_back(DismissMessage{});
+        } else if (state.node != kNoIndex || state.prim != kNoIndex) {
+            state.node = state.prim = kNoIndex;
+        } else {
+            state.ray.reset();
         }
     }
     if (io.KeyCtrl) {
@@ -153,6 +212,7 @@ void handle_keys(ViewerState& state, const PanelInput& input, PanelMemory& memor
     if (flying || io.KeyAlt) return;
     handle_toggles(state);
     handle_views(state, input, camera, actions);
+    handle_nodes(state, input);
     handle_characters(state, input);
 }
 

@@ -22,8 +22,9 @@ struct Legend {
     std::string title, lower, middle, upper;
     bool discrete = false;
     int steps = 64;
-    std::optional<float> mark;  ///< position in [0, 1]
-    std::string pointed;        ///< what lies under the pointer, in words
+    std::optional<float> mark;                           ///< position in [0, 1]
+    std::string pointed;                                 ///< what lies under the pointer, in words
+    std::vector<std::pair<Vec3, std::string>> swatches;  ///< colours beside the strip, sRGB
 };
 
 template <class Color>
@@ -58,13 +59,14 @@ void strip(const Context& context, const Legend& legend, float width, const Colo
     place(legend.upper, 1.0f);
 }
 
+/// Returns the height of the window.
 template <class Color>
-void legend_window(const Context& context, const char* name, const ViewRect& view, const Legend& legend,
-                   const Color& color) {
+float legend_window(const Context& context, const char* name, const ViewRect& view, const Legend& legend,
+                    const Color& color) {
     const float margin = 8.0f * context.scale;
     const float room = view.width - 2.0f * (margin + ImGui::GetStyle().WindowPadding.x);
     const float width = std::min(kLegendWidth * context.scale, room);
-    if (width < kNarrowestLegend * context.scale) return;
+    if (width < kNarrowestLegend * context.scale) return 0.0f;
     ImGui::SetNextWindowPos({view.x + view.width - margin, view.y + view.height - margin}, ImGuiCond_Always,
                             {1.0f, 1.0f});
     ImGui::SetNextWindowBgAlpha(0.92f);
@@ -73,14 +75,46 @@ void legend_window(const Context& context, const char* name, const ViewRect& vie
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + room);
     ImGui::TextUnformatted(legend.title.c_str());
     strip(context, legend, width, color);
+    for (const auto& [color_of, text] : legend.swatches) swatch(context, color_of, text);
     if (!legend.pointed.empty()) ImGui::TextUnformatted(legend.pointed.c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopFont();
+    const float height = ImGui::GetWindowHeight();
     ImGui::End();
+    return height;
 }
 
 /// In percent, small ones as powers of ten.
 std::string share_text(double share) { return number_text(100.0 * share, 2) + " %"; }
+
+void visits_legend(const Context& context, Legend& legend) {
+    const Visits* visits = context.input.visits;
+    const bool of_ray = context.state.visit_rays == VisitRays::Picked;
+    const double most = context.input.scale.scale.upper;
+    if (visits == nullptr) {
+        legend.title = of_ray ? "visits of a ray: click a pixel" : "visits: casting all rays of the view";
+    } else {
+        legend.title = of_ray ? "visits by the picked ray"
+                              : "visits by " + grouped(visits->ray_count) + " rays, logarithmic";
+        legend.pointed =
+            grouped(visits->visited_nodes) + " of " + grouped(visits->by_node.size()) + " nodes visited";
+    }
+    legend.lower = "1";
+    if (most > 1.0) legend.upper = grouped(static_cast<uint64_t>(most));
+    legend.steps = most > 1.0 ? 64 : 1;
+    if (most <= 1.0) legend.lower = "1 visit";
+    if (context.state.show_unvisited)
+        legend.swatches.push_back({context.input.unvisited_color, "not visited"});
+}
+
+void swatches(const Context& context, Legend& legend) {
+    if (context.state.show_empty && context.input.tree != nullptr && context.input.tree->empty_leaves > 0 &&
+        context.state.box_color != BoxColor::Visits) {
+        legend.swatches.push_back({context.input.empty_color, "empty cell"});
+    }
+    if (context.state.show_shared && context.state.show_mesh && context.input.shared_count > 0)
+        legend.swatches.push_back({context.input.shared_color, "triangle in several leaves"});
+}
 
 Legend box_legend(const Context& context) {
     const ColorScale& colors = context.input.scale;
@@ -102,13 +136,23 @@ Legend box_legend(const Context& context) {
         legend.upper = grouped(static_cast<uint64_t>(upper));
         legend.middle = number_text(scale.value(0.5), 3);
         if (has_node) value = pointed->references;
+    } else if (colors.meaning == BoxColor::Visits) {
+        visits_legend(context, legend);
     } else {
         legend.title = "a box's own share of the SAH cost, logarithmic";
         legend.lower = share_text(lower), legend.upper = share_text(upper);
         legend.middle = share_text(scale.value(0.5));
         if (has_node) value = pointed->sah_share;
     }
-    if (has_node) {
+    swatches(context, legend);
+    if (has_node && colors.meaning == BoxColor::Visits) {
+        const Visits* visits = context.input.visits;
+        if (visits == nullptr) return legend;
+        const uint32_t count = visits->by_node[pointed->node];
+        if (count > 0) legend.mark = scale.position(count);
+        legend.pointed += "\nhere: level " + std::to_string(pointed->level) + ", " + grouped(count) +
+                          (count == 1 ? " visit" : " visits");
+    } else if (has_node) {
         legend.mark = scale.position(value);
         legend.pointed = std::string(pointed->leaf ? "leaf" : "node") + " at level " +
                          std::to_string(pointed->level) + ": " +
@@ -116,6 +160,11 @@ Legend box_legend(const Context& context) {
                          share_text(pointed->sah_share) + " of cost";
         if (pointed->hit_references > 1) {
             legend.pointed += "\ntriangle in " + grouped(pointed->hit_references) + " references";
+        } else if (context.input.values != nullptr &&
+                   pointed->hit.prim < context.input.values->prim_leaves.size() &&
+                   context.input.values->prim_leaves[pointed->hit.prim] > 1) {
+            legend.pointed +=
+                "\ntriangle in " + grouped(context.input.values->prim_leaves[pointed->hit.prim]) + " leaves";
         }
     }
     return legend;
@@ -141,10 +190,21 @@ Legend heat_legend(const Context& context) {
     return legend;
 }
 
-Vec3 srgb_of(const Vec3& linear) {
-    return Vec3(static_cast<float>(srgb_byte(linear.x)), static_cast<float>(srgb_byte(linear.y)),
-                static_cast<float>(srgb_byte(linear.z))) /
-           255.0f;
+/// How many pixels are marked as wrong, in the upper left corner of the traced view.
+void wrong_legend(const Context& context) {
+    const bench::PictureCheck* check = context.input.check;
+    if (check == nullptr || context.state.traced == TracedView::Off) return;
+    const bench::ModeCheck& mode = check->modes[static_cast<size_t>(context.state.mode)];
+    const float margin = 8.0f * context.scale;
+    ImGui::SetNextWindowPos({context.layout.traced.x + margin, context.layout.traced.y + margin});
+    ImGui::SetNextWindowBgAlpha(0.92f);
+    ImGui::Begin("wrong legend", nullptr, kFloating);
+    ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
+    swatch(context, kWrongColor,
+           grouped(mode.wrong()) + " wrong of " + grouped(check->checked) + " rays checked, " +
+               (context.state.mode == Mode::Exact ? "exact" : "fast") + " mode");
+    ImGui::PopFont();
+    ImGui::End();
 }
 
 }  // namespace
@@ -152,21 +212,26 @@ Vec3 srgb_of(const Vec3& linear) {
 void legends(const Context& context) {
     const ViewerState& state = context.state;
     const Built* built = context.input.built;
+    float box_height = 0.0f;
     if (state.show_boxes && built != nullptr && built->levels->level_count() > 0) {
         const ColorScale& scale = context.input.scale;
-        legend_window(context, "box legend", context.layout.scene, box_legend(context), [&](float x) {
+        const auto color = [&](float x) {
+            if (scale.scale.upper <= 1.0 && scale.meaning == BoxColor::Visits) x = 1.0f;
             const float last = static_cast<float>(scale.palette.size() - 1);
             const float at = std::clamp(x, 0.0f, 1.0f) * last;
             const size_t i = std::min(static_cast<size_t>(at), scale.palette.size() - 2);
-            return srgb_of(glm::mix(scale.palette[i], scale.palette[i + 1], at - static_cast<float>(i)));
-        });
+            return srgb_from_linear(glm::mix(scale.palette[i], scale.palette[i + 1], at - static_cast<float>(i)));
+        };
+        box_height = legend_window(context, "box legend", context.layout.scene, box_legend(context), color);
     }
     if (state.traced != TracedView::Off && is_heat(state.shading) && context.input.trace.step > 0) {
         ViewRect place = context.layout.traced;
-        if (state.traced == TracedView::Over && state.show_boxes) place.height -= 72.0f * context.scale;
+        if (state.traced == TracedView::Over && state.show_boxes)
+            place.height -= std::max(72.0f * context.scale, box_height + 8.0f * context.scale);
         legend_window(context, "heat legend", place, heat_legend(context),
                       [&](float x) { return map_srgb(state.color_map, x); });
     }
+    wrong_legend(context);
 }
 
 }  // namespace boxwood::panel

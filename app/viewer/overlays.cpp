@@ -120,6 +120,7 @@ void key_list(const Context& context) {
     ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
     const auto list = [&](size_t begin, size_t end) {
         ImGui::BeginGroup();
+        group = {};  // a column begins with its heading
         const float left = ImGui::GetCursorPosX();
         for (const KeyHelp& row : key_help().subspan(begin, end - begin)) {
             if (group != row.group) {

@@ -29,7 +29,9 @@ uint64_t largest_leaf(const TreeStats& tree) {
 
 void tree_rows(const Context& context, const Built& built, const TreeStats& tree) {
     value_row(context, "references in leaves", grouped(tree.references),
-              "References in all leaves, after duplicates of one primitive in a leaf were removed.");
+              "References in all leaves, after duplicates of one primitive in a leaf were removed.\n" +
+                  grouped(context.input.shared_count) +
+                  " triangles of one reference are in several leaves (D shows them in blue).");
     value_row(context, "nodes", grouped(tree.nodes), "Inner nodes and leaves.");
     value_row(context, "leaves", grouped(tree.leaves),
               "Leaves, " + grouped(tree.empty_leaves) + " of them empty; the largest holds " +
@@ -169,16 +171,45 @@ void measures_part(const Context& context) {
     ray_rows(context);
 }
 
+void side_tabs(const Context& context) {
+    constexpr std::array<const char*, 3> kNames{"Levels", "Node", "Verify"};
+    constexpr std::array<const char*, 3> kTips{
+        "What each level of the tree holds and costs.",
+        "The selected node: its numbers, its path, its triangles. Click a box to select its node.",
+        "Speed and wrong rays of both modes, on request, against rational arithmetic."};
+    ImGui::Dummy({0.0f, 2.0f * context.scale});
+    ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[2]);
+    for (size_t i = 0; i < kNames.size(); ++i) {
+        const bool is_shown = context.state.side == static_cast<SidePanel>(i);
+        if (i > 0) ImGui::SameLine(0.0f, 18.0f * context.scale);
+        ImGui::PushStyleColor(ImGuiCol_Text, im_color(is_shown ? context.colors.text : context.colors.dim));
+        ImGui::TextUnformatted(kNames[i]);
+        ImGui::PopStyleColor();
+        if (ImGui::IsItemClicked()) context.state.side = static_cast<SidePanel>(i);
+        const ImVec2 lower = ImGui::GetItemRectMin(), upper = ImGui::GetItemRectMax();
+        if (is_shown || ImGui::IsItemHovered()) {
+            ImGui::GetWindowDrawList()->AddRectFilled(
+                {lower.x, upper.y + 1.0f * context.scale}, {upper.x, upper.y + 3.0f * context.scale},
+                im_packed(is_shown ? context.colors.accent : context.colors.dim));
+        }
+        ImGui::PopFont();
+        tooltip(context, kTips[i]);
+        ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[2]);
+    }
+    ImGui::PopFont();
+    ImGui::Separator();
+}
+
 void level_table_part(const Context& context) {
     const Built* built = context.input.built;
     if (built == nullptr) return;
     const TreeStats& tree = *context.input.tree;
-    heading(context, "Levels");
     colored(context.colors.dim, "copy as");
     for (const auto& [name, text] : {std::pair{"TSV", &level_tsv}, std::pair{"Markdown", &level_markdown},
                                      std::pair{"JSON", &level_json}}) {
         ImGui::SameLine();
         if (ImGui::SmallButton(name)) context.actions.push_back(CopyText{text(tree)});
+        tooltip(context, std::string("Copies this table as ") + name + ".");
     }
     constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_Sortable | ImGuiTableFlags_ScrollY |
                                        ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH |

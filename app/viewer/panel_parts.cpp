@@ -52,6 +52,17 @@ void value_row(const Context& context, const char* name, const std::string& valu
     tooltip(context, tip);
 }
 
+void swatch(const Context& context, const Vec3& srgb, const std::string& text) {
+    const float size = 0.7f * ImGui::GetTextLineHeight();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float top = at.y + 0.5f * (ImGui::GetTextLineHeight() - size);
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + size, top + size}, im_packed(srgb),
+                                              1.5f * context.scale);
+    ImGui::Dummy({size, ImGui::GetTextLineHeight()});
+    ImGui::SameLine();
+    ImGui::TextUnformatted(text.c_str());
+}
+
 bool put_back() { return ImGui::IsItemClicked(ImGuiMouseButton_Right); }
 
 void toggle(const Context& context, const char* label, bool& value, bool default_value, const char* tip) {

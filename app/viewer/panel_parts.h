@@ -42,7 +42,23 @@ void view_part(const Context& context);
 void trace_part(const Context& context);
 void session_part(const Context& context);
 void measures_part(const Context& context);
+/// The tabs of the lower half of the right panel.
+void side_tabs(const Context& context);
 void level_table_part(const Context& context);
+void node_part(const Context& context);
+void verify_part(const Context& context);
+
+/// Colour of what "Verify" found wrong, sRGB.
+inline constexpr Vec3 kWrongColor{1.0f, 0.35f, 0.95f};
+/// Marks the wrong pixels in the traced view.
+void wrong_marks(const Context& context);
+/// A colour and what it stands for.
+void swatch(const Context& context, const Vec3& srgb, const std::string& text);
+
+/// Hides the selected node, shows it alone or, if it is alone, all; puts back what is not shown.
+void hide_selected(ViewerState& state);
+void isolate_selected(ViewerState& state);
+void put_nodes_back(ViewerState& state);
 
 void legends(const Context& context);
 void status_line(const Context& context);

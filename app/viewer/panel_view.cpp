@@ -59,11 +59,28 @@ void scale_choice(const Context& context) {
     tooltip(context, "Scale of the interface.");
 }
 
-constexpr std::array<const char*, 3> kColors{"level", "primitives below", "share of SAH cost"};
+constexpr std::array<const char*, 4> kColors{"level", "primitives below", "share of SAH cost",
+                                             "visits of rays"};
+constexpr std::array<const char*, 2> kVisitRays{"the picked ray", "all of the view"};
 constexpr std::array<const char*, 3> kTraced{"off", "beside", "over the mesh"};
 constexpr std::array<const char*, 5> kShadings{"primary", "normals", "ambient occlusion", "heat: nodes",
                                                "heat: tests"};
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+
+/// What goes with boxes coloured by visits.
+void visits_rows(const Context& context) {
+    ViewerState& s = context.state;
+    enum_choice(context, "visits by", s.visit_rays, kDefault.visit_rays, kVisitRays,
+                "Whose visits are counted: those of the ray that was picked by a click (Shift + click at any "
+                "time), or of all rays through the pixel centres of the view.");
+    toggle(context, "not visited", s.show_unvisited, kDefault.show_unvisited,
+           "Boxes that no ray visited are drawn too, faint.");
+    two_columns(context);
+    ImGui::BeginDisabled(!s.ray.has_value());
+    if (ImGui::Button("Forget the ray")) s.ray.reset();
+    ImGui::EndDisabled();
+    tooltip(context, "Takes the picked ray away.");
+}
 
 }  // namespace
 
@@ -85,6 +102,12 @@ void view_part(const Context& context) {
     toggle(context, "mesh", s.show_mesh, kDefault.show_mesh, "The surface (M).");
     two_columns(context);
     toggle(context, "wire", s.show_wire, kDefault.show_wire, "The edges of the triangles (W).");
+    toggle(context, "empty cells", s.show_empty, kDefault.show_empty,
+           "Leaves without primitives are drawn too (E), in a colour of their own.");
+    two_columns(context);
+    toggle(context, "in several leaves", s.show_shared, kDefault.show_shared,
+           "Triangles in blue that the builder put into several leaves, though the references stage made one "
+           "reference of them (D).");
     toggle(context, "red pieces", s.show_red, kDefault.show_red,
            "Triangles with more than one reference in red (R).");
     two_columns(context);
@@ -96,8 +119,9 @@ void view_part(const Context& context) {
     }
     enum_choice(
         context, "box colour", s.box_color, kDefault.box_color, kColors,
-        "What the colour of a box says: its level, the references below it, or its own share of the SAH "
-        "cost (half area x visits or tests).");
+        "What the colour of a box says: its level, the references below it, its own share of the SAH cost "
+        "(half area x visits or tests), or how often rays visit it (V).");
+    if (s.box_color == BoxColor::Visits) visits_rows(context);
     enum_choice(context, "colour map", s.color_map, kDefault.color_map, kColorMapNames,
                 "Perceptual colour maps that colour-blind eyes read too: for boxes and the heat map.");
     const UpAxis old_axis = s.up_axis;

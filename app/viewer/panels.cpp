@@ -31,7 +31,18 @@ void left_panel(const panel::Context& context) {
 void right_panel(const panel::Context& context) {
     begin_fixed("right", context.layout.right);
     panel::measures_part(context);
-    panel::level_table_part(context);
+    panel::side_tabs(context);
+    switch (context.state.side) {
+        case SidePanel::Levels:
+            panel::level_table_part(context);
+            break;
+        case SidePanel::Node:
+            panel::node_part(context);
+            break;
+        case SidePanel::Verify:
+            panel::verify_part(context);
+            break;
+    }
     ImGui::End();
 }
 
@@ -48,6 +59,7 @@ std::vector<Action> edit(ViewerState& state, const PanelInput& input, const Fram
         panel::status_line(context);
         panel::legends(context);
     }
+    panel::wrong_marks(context);
     panel::message_line(context);
     panel::work_line(context);
     if (state.show_keys) panel::key_list(context);

@@ -7,10 +7,14 @@
 #include <vector>
 
 #include "app/viewer/action.h"
+#include "app/viewer/background.h"
 #include "app/viewer/build_job.h"
 #include "app/viewer/draw_list.h"
 #include "app/viewer/layout.h"
+#include "app/viewer/node_facts.h"
 #include "app/viewer/pointed.h"
+#include "app/viewer/visits.h"
+#include "bench/picture_check.h"
 #include "core/render/progressive_tracer.h"
 
 namespace boxwood {
@@ -22,13 +26,24 @@ struct PanelInput {
     const TreeStats* tree = nullptr;  ///< of `built`
     Camera camera;                    ///< what the frame shows
     BuildProgress progress;
+    const BoxValues* values = nullptr;  ///< of `built`
+    uint64_t shared_count = 0;          ///< triangles in several leaves though one reference was made
+    const NodeFacts* facts = nullptr;   ///< of the selected node; null: none
+    size_t picked_place = 0;            ///< of the selected node among those under the last click
+    size_t picked_count = 0;            ///< 0: it was not selected by a click
+    const Visits* visits = nullptr;     ///< that box colours show; null: none (yet)
+    WorkProgress visits_progress;
+    Hit ray_hit;                                 ///< of the state's ray
+    const bench::PictureCheck* check = nullptr;  ///< null: not asked for, or not done
+    WorkProgress check_progress;
     std::string build_error;     ///< why the state's recipe is not what is shown; empty: it is, or will be
     bool cancelled = false;      ///< the state's recipe was cancelled
     double build_wait_ms = 0.0;  ///< from request to result of what is on screen
     size_t cache_bytes = 0, cache_limit = 0, gpu_bytes = 0;
-    TraceState trace;                  ///< of the traced view; converged or not
-    ColorScale scale;                  ///< of the boxes
-    BoxCounts boxes, reference_boxes;  ///< of the frame before
+    TraceState trace;  ///< of the traced view; converged or not
+    ColorScale scale;  ///< of the boxes
+    Vec3 empty_color{0.0f}, unvisited_color{0.0f}, shared_color{0.0f};  ///< sRGB
+    BoxCounts boxes, reference_boxes;                                   ///< of the frame before
     std::optional<Pointed> pointed;
     std::optional<PixelValue> pixel;  ///< of the traced picture, under the pointer
     std::string message;              ///< empty: none
@@ -44,6 +59,7 @@ struct PanelMemory {
     std::string recipe_error;                 ///< why recipe_text is no recipe
     bool ask_open = false, ask_save = false;  ///< opens the dialog in this frame
     std::string path;                         ///< typed in a dialog
+    int verify_count = 1;                     ///< of the choices beside "Verify"
     int dragged_handle = 0;                   ///< of the level slider: 0 none, 1 first, 2 last, 3 both
     float drag_offset = 0.0f;
     bool playing = false;        ///< the frames of an animated scene, one after another

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -13,8 +12,6 @@
 #include "app/viewer/scene_path.h"
 #include "app/viewer/session_fields.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
-#include "core/render/png.h"
 #include "core/scene/scene.h"
 
 namespace boxwood {
@@ -22,8 +19,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr size_t kMaxBytes = size_t{16} << 20;
 constexpr int kMaxNesting = 32;
+constexpr size_t kMostHidden = 10000;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& sentence) {
     throw Error(ExitCode::BadInput, where + ": " + sentence);
@@ -137,6 +134,26 @@ public:
             views[static_cast<size_t>(name[0] - '1')] = as_camera(key, value);
         }
     }
+    void ray(const char* key, std::optional<PickedRay>& ray) {
+        const std::optional<Json> json = take(key);
+        if (!json) return;
+        if (!json->is_object() || json->size() != 2 || !json->contains("origin") ||
+            !json->contains("direction")) {
+            fail(key, "an object with origin and direction", kind_of(*json));
+        }
+        ray = PickedRay{as_vec3(key, (*json)["origin"]), as_vec3(key, (*json)["direction"])};
+        if (ray->direction == Vec3(0.0f)) fail(key, "a direction that is not zero", "[0, 0, 0]");
+    }
+    void index(const char* key, uint32_t& value) {
+        if (const std::optional<Json> json = take(key)) value = as_index(key, *json);
+    }
+    void indices(const char* key, std::vector<uint32_t>& values) {
+        const std::optional<Json> json = take(key);
+        if (!json) return;
+        if (!json->is_array() || json->size() > kMostHidden)
+            fail(key, "at most " + std::to_string(kMostHidden) + " whole numbers", kind_of(*json));
+        for (const Json& value : *json) values.push_back(as_index(key, value));
+    }
     void limits(const char* key, CheckLimits& limits, const CheckLimits&) {
         const std::optional<Json> json = take(key);
         if (!json) return;
@@ -174,6 +191,9 @@ private:
             fail(key, expected, kind_of(json));
         }
         return json.get<int>();
+    }
+    uint32_t as_index(const char* key, const Json& json) const {
+        return static_cast<uint32_t>(as_int(key, json, 0, std::numeric_limits<int>::max()));
     }
     float as_number(const char* key, const Json& json, float lower, float upper) const {
         const double value = json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
@@ -267,6 +287,16 @@ public:
             if (views[i]) object_[key][std::to_string(i + 1)] = camera_json(*views[i]);
         }
     }
+    void ray(const char* key, const std::optional<PickedRay>& ray) {
+        if (ray)
+            object_[key] = {{"origin", vec3_json(ray->origin)}, {"direction", vec3_json(ray->direction)}};
+    }
+    void index(const char* key, uint32_t value) {
+        if (value != kNoIndex) object_[key] = value;
+    }
+    void indices(const char* key, const std::vector<uint32_t>& values) {
+        if (!values.empty()) object_[key] = values;
+    }
     void limits(const char* key, const CheckLimits& limits, const CheckLimits& default_limits) {
         if (limits.difference != default_limits.difference) object_[key]["difference"] = limits.difference;
         if (limits.pixels != default_limits.pixels) object_[key]["pixels"] = limits.pixels;
@@ -291,7 +321,7 @@ private:
 };
 
 Json parse_json(const std::string& text, const std::string& where) {
-    if (text.size() > kMaxBytes) refuse(where, "expected a session of at most 16 MiB");
+    if (text.size() > kMostSessionBytes) refuse(where, "expected a session of at most 16 MiB");
     if (nesting(text) > kMaxNesting) refuse(where, "expected JSON nested at most 32 levels deep");
     try {
         return Json::parse(text);
@@ -300,18 +330,6 @@ Json parse_json(const std::string& text, const std::string& where) {
         if (const size_t end = what.find("] "); end != std::string::npos) what.erase(0, end + 2);
         refuse(where, "expected a session as JSON: " + to_utf8(what));
     }
-}
-
-std::string read_file(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::string text;
-    std::array<char, 65536> block;
-    while (file && text.size() <= kMaxBytes) {
-        file.read(block.data(), block.size());
-        text.append(block.data(), static_cast<size_t>(file.gcount()));
-    }
-    if (file.bad() || (!file && !file.eof())) refuse(path, "expected a file that can be read");
-    return text;
 }
 
 }  // namespace
@@ -347,31 +365,6 @@ std::string print_session(const Session& session, const std::string& folder) {
     const Json unknown = Json::parse(session.unknown);
     for (const auto& [key, value] : unknown.items()) json[key] = value;
     return json.dump(4, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-std::string session_folder(const std::string& path) {
-    const std::string folder = std::filesystem::path(path).parent_path().string();
-    return folder.empty() ? "." : folder;
-}
-
-std::optional<Session> load_session(const std::string& path) {
-    if (is_built_in(path) || !std::filesystem::is_regular_file(scene_file(path))) return std::nullopt;
-    std::ifstream file(path, std::ios::binary);
-    std::array<char, 8> start{};
-    file.read(start.data(), start.size());
-    if (has_png_signature(std::as_bytes(std::span(start)))) {
-        const std::string text = read_png(path).session_text;
-        if (text.empty()) refuse(path, "expected a picture with a session in it; this one carries none");
-        return parse_session(text, session_folder(path), path);
-    }
-    if (!file || start[0] == 0) return std::nullopt;
-    const std::string text = read_file(path);
-    if (!is_session_text(text)) return std::nullopt;
-    return parse_session(text, session_folder(path), path);
-}
-
-void save_session(const Session& session, const std::string& path) {
-    write_file_atomically(path, print_session(session, session_folder(path)));
 }
 
 }  // namespace boxwood

@@ -25,6 +25,8 @@ struct Session {
     std::vector<std::string> notes;  ///< a sentence for each unknown key
 };
 
+inline constexpr size_t kMostSessionBytes = size_t{16} << 20;
+
 /// Whether the text is a session, and no other JSON such as a glTF file.
 bool is_session_text(const std::string& text);
 

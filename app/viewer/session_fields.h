@@ -9,9 +9,14 @@ namespace boxwood {
 
 inline constexpr std::array<const char*, 2> kModeNames{"exact", "fast"};
 inline constexpr std::array<const char*, 3> kTracedViewNames{"off", "beside", "over"};
-inline constexpr std::array<const char*, 3> kBoxColorNames{"level", "primitives", "sah-share"};
+inline constexpr std::array<const char*, 4> kBoxColorNames{"level", "primitives", "sah-share", "visits"};
+inline constexpr std::array<const char*, 2> kVisitRaysNames{"picked", "picture"};
+inline constexpr std::array<const char*, 3> kSidePanelNames{"levels", "node", "verify"};
 inline constexpr std::array<const char*, 2> kThemeNames{"dark", "light"};
 inline constexpr std::array<const char*, 3> kUpAxisNames{"x", "y", "z"};
+
+/// No picture has more.
+inline constexpr int kMostVerifyRays = 8192 * 8192;
 
 /// Walks the fields of a session in the order in which they are printed: the reader and the writer are
 /// visitors. `defaults` has the same fields with their default values.
@@ -32,8 +37,19 @@ void describe_session(Visitor& v, Session& session, const Session& defaults) {
     v.flag("wire", s.show_wire, d.show_wire);
     v.flag("red", s.show_red, d.show_red);
     v.flag("reference_boxes", s.show_reference_boxes, d.show_reference_boxes);
+    v.flag("shared", s.show_shared, d.show_shared);
+    v.flag("empty_cells", s.show_empty, d.show_empty);
     v.flag("see_through", s.see_through, d.see_through);
     v.choice("box_color", s.box_color, d.box_color, kBoxColorNames);
+    v.choice("visit_rays", s.visit_rays, d.visit_rays, kVisitRaysNames);
+    v.flag("unvisited", s.show_unvisited, d.show_unvisited);
+    v.ray("ray", s.ray);
+    v.index("node", s.node);
+    v.index("triangle", s.prim);
+    v.indices("hidden", s.hidden_nodes);
+    v.index("isolated", s.isolated);
+    v.choice("side", s.side, d.side, kSidePanelNames);
+    v.whole_number("verify_rays", s.verify_rays, d.verify_rays, 0, kMostVerifyRays);
     v.choice("traced", s.traced, d.traced, kTracedViewNames);
     v.choice("shade", s.shading, d.shading, kShadingNames);
     v.whole_number("spp", s.spp, d.spp, 0, 4096);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/render/color_map.h"
 #include "core/render/trace_image.h"
@@ -23,7 +24,17 @@ enum class BoxColor : uint8_t {
     Level,       ///< its level, along the colour map
     Primitives,  ///< references below it, logarithmic
     SahShare,    ///< its own share of the SAH cost, logarithmic
+    Visits,      ///< how often rays visit it, logarithmic
 };
+
+/// Whose visits BoxColor::Visits shows.
+enum class VisitRays : uint8_t {
+    Picked,   ///< of the picked ray
+    Picture,  ///< of all primary rays of the view
+};
+
+/// What the lower half of the right panel shows.
+enum class SidePanel : uint8_t { Levels, Node, Verify };
 
 enum class Theme : uint8_t { Dark, Light };
 
@@ -37,6 +48,14 @@ struct LevelRange {
     int last = 4;
 
     bool operator==(const LevelRange&) const = default;
+};
+
+/// A ray that was picked in the picture, from the eye of that moment on, in world units.
+struct PickedRay {
+    Vec3 origin{0.0f};
+    Vec3 direction{0.0f, 0.0f, 1.0f};
+
+    bool operator==(const PickedRay&) const = default;
 };
 
 /// The truth of a session: plain data, of which everything that a frame shows is derived. A default value is
@@ -56,8 +75,22 @@ struct ViewerState {
     bool show_wire = false;
     bool show_red = true;               ///< subdivided triangles in red
     bool show_reference_boxes = false;  ///< the boxes of subdivided triangles, coloured by primitive
+    bool show_shared = false;           ///< triangles of which the builder made more references, in blue
+    bool show_empty = false;            ///< empty cells
     bool see_through = false;           ///< boxes through everything in front of them; false: hidden lines
     BoxColor box_color = BoxColor::Level;
+    VisitRays visit_rays = VisitRays::Picked;
+    bool show_unvisited = false;   ///< where colours say visits: boxes that no ray visited, faint
+    std::optional<PickedRay> ray;  ///< drawn as a line
+
+    // Nodes and triangles of what scene and recipe make; another scene or recipe forgets them.
+    uint32_t node = kNoIndex;            ///< selected; index into NodeList::nodes
+    uint32_t prim = kNoIndex;            ///< selected triangle; index into Mesh::triangles
+    std::vector<uint32_t> hidden_nodes;  ///< with all below them, and the triangles in no other leaf
+    uint32_t isolated = kNoIndex;        ///< node: only it and what is below it is shown
+
+    SidePanel side = SidePanel::Levels;
+    int verify_rays = 0;  ///< rays of the traced view, or the view, to be checked; 0: none asked for
 
     TracedView traced = TracedView::Off;
     Shading shading = Shading::Primary;      ///< of the traced view

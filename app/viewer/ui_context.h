@@ -25,7 +25,8 @@ private:
 
 /// Keys by their codes of the window system (GLFW), which Dear ImGui passes on as they are.
 namespace key {
-inline constexpr int kEscape = 256, kTab = 258, kHome = 268, kDelete = 261;
+inline constexpr int kEscape = 256, kTab = 258, kHome = 268, kDelete = 261, kRight = 262, kLeft = 263,
+                     kDown = 264, kUp = 265;
 }
 
 }  // namespace boxwood

@@ -11,6 +11,7 @@ constexpr float kRadiansPerPixel = 0.006f;
 constexpr float kZoomPerNotch = 0.85f;
 constexpr float kFlySpeed = 0.35f;  ///< scene sizes a second
 constexpr float kWheelPause = 0.4f;
+constexpr float kClickReach = 3.0f;  ///< pixels that the pointer may move within a click
 
 Vec3 fly_direction() {
     const auto axis = [](int plus, int minus) {
@@ -50,6 +51,25 @@ Camera look_and_fly(const Camera& camera, const Vec3& up, const Vec2& delta, con
     return fly(turned, up, direction * (speed * std::min(io.DeltaTime, 0.1f)));
 }
 
+/// Left button down and up at one place: selects the node there; with Shift, or where boxes show the picked
+/// ray's visits, picks the ray.
+void handle_click(const ViewerState& state, ViewInput& input, const Vec2& pointer, bool over_view,
+                  std::vector<Action>& actions) {
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+        input.may_click = over_view;
+        input.pressed = pointer;
+    }
+    if (glm::distance(pointer, input.pressed) > kClickReach) input.may_click = false;
+    if (!input.may_click || !ImGui::IsMouseReleased(ImGuiMouseButton_Left)) return;
+    input.may_click = false;
+    const bool picks_rays = state.box_color == BoxColor::Visits && state.visit_rays == VisitRays::Picked;
+    if (ImGui::GetIO().KeyShift || picks_rays) {
+        actions.push_back(PickRay{pointer});
+    } else {
+        actions.push_back(PickNode{pointer});
+    }
+}
+
 }  // namespace
 
 bool move_camera(ViewerState& state, ViewInput& input, const FrameLayout& layout, const Camera& camera,
@@ -62,8 +82,10 @@ bool move_camera(ViewerState& state, ViewInput& input, const FrameLayout& layout
 
     if (over_view && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         actions.push_back(FocusPoint{pointer});
+        input.may_click = false;
         return false;
     }
+    handle_click(state, input, pointer, over_view, actions);
     if (!is_held(input.drag)) input.drag = over_view ? started_drag() : ViewInput::Drag::None;
     const Vec2 delta(io.MouseDelta.x, io.MouseDelta.y);
     if (input.drag == ViewInput::Drag::Orbit && delta != Vec2(0.0f)) {

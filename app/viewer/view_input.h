@@ -12,11 +12,13 @@ namespace boxwood {
 struct ViewInput {
     enum class Drag : uint8_t { None, Orbit, Pan, Look };
     Drag drag = Drag::None;
+    Vec2 pressed{0.0f};        ///< where the left button went down
+    bool may_click = false;    ///< it has not moved since, so that letting it go is a click
     float wheel_pause = 1.0f;  ///< seconds since the wheel turned
 };
 
-/// Moves the state's camera as mouse and flying keys of this ImGui frame ask. True while the camera is being
-/// moved, so that the whole move is one step to undo.
+/// Moves the state's camera, or picks a node or a ray, as mouse and flying keys of this ImGui frame ask. True
+/// while the camera is being moved, so that the whole move is one step to undo.
 bool move_camera(ViewerState& state, ViewInput& input, const FrameLayout& layout, const Camera& camera,
                  const Box& scene, std::vector<Action>& actions);
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/viewer/clipboard.h"
 #include "app/viewer/scene_path.h"
 #include "core/base/error.h"
 #include "core/render/image.h"
@@ -31,7 +30,11 @@ bool satisfies(const BuildRequest& shown, const BuildRequest& wanted) {
 }  // namespace
 
 Viewer::Viewer(Session session, Settings settings)
-    : state(session.state), session_(std::move(session)), settings_(std::move(settings)), undo_(state) {
+    : state(session.state),
+      session_(std::move(session)),
+      settings_(std::move(settings)),
+      nodes_of_(NodesKey::of(state)),
+      undo_(state) {
     for (const std::string& note : session_.notes) say(note, false);
 }
 
@@ -59,7 +62,7 @@ Session Viewer::session() const {
 
 bool Viewer::busy() const {
     if (panel_memory.playing) return true;
-    if (job_.progress().running || asked_ != wanted()) return true;
+    if (job_.progress().running || asked_ != wanted() || rays_.busy()) return true;
     return tracing_ && !trace_paused_ && !tracer_->state().converged;
 }
 
@@ -76,9 +79,41 @@ BuildRequest Viewer::wanted() const {
 
 void Viewer::update(bool editing) {
     if (const std::optional<BuildResult> result = job_.take()) take(*result);
+    forget_nodes();
     request_build();
     update_trace();
+    rays_.update(state, built_, camera());
+    update_nodes();
     undo_.note(state, editing || opening_.has_value() || panel_memory.playing);
+}
+
+bool Viewer::shows(const BuildRequest& request) const { return shown_ && satisfies(*shown_, request); }
+
+void Viewer::forget_nodes() {
+    const NodesKey key = NodesKey::of(state);
+    if (key == nodes_of_) return;
+    if (key.scene != nodes_of_.scene) state.ray.reset();
+    nodes_of_ = key;
+    state.node = state.prim = state.isolated = kNoIndex;
+    state.hidden_nodes.clear();
+    picked_at_.reset();
+}
+
+void Viewer::update_nodes() {
+    const bool is_other = nodes_built_ != built_;
+    nodes_built_ = built_;
+    if (is_other || !visibility_ || hidden_shown_ != state.hidden_nodes ||
+        isolated_shown_ != state.isolated) {
+        hidden_shown_ = state.hidden_nodes;
+        isolated_shown_ = state.isolated;
+        visibility_ = std::make_shared<const Visibility>(
+            built_ ? visible_parts(state, built_->levels->list, built_->scene->mesh.triangle_count())
+                   : Visibility{});
+    }
+    const bool exists = built_ && state.node < built_->levels->list.nodes.size();
+    if (!exists) facts_.reset();
+    if (exists && (is_other || !facts_ || facts_->node != state.node))
+        facts_ = node_facts(built_->levels->list, *values_, state.node);
 }
 
 void Viewer::request_build() {
@@ -87,7 +122,7 @@ void Viewer::request_build() {
     asked_ = request;
     build_error_.clear();
     cancelled_ = false;
-    if (shown_ && satisfies(*shown_, request)) {
+    if (shows(request)) {
         job_.cancel();
         return;
     }
@@ -142,6 +177,7 @@ void Viewer::take(const BuildResult& result) {
     built_ = result.built;
     values_ = result.values;
     tree_ = result.tree;
+    shared_count_ = result.shared_count;
     build_wait_ms_ = result.ms;
 }
 
@@ -194,115 +230,13 @@ void Viewer::wait() {
         job_.wait();
         update(false);
         if (!build_error_.empty()) throw Error(build_exit_code_, build_error_);
-    } while (job_.progress().running || opening_ || !shown_ || !satisfies(*shown_, request_of(state)));
+    } while (job_.progress().running || opening_ || !shows(request_of(state)));
+    for (update(false); rays_.busy(); update(false)) rays_.wait();
     if (!tracing_) return;
     constexpr double kLong = 1000.0;  // ms
     while (!tracer_->wait(kLong)) {
     }
     update(false);
-}
-
-void Viewer::show_state(const ViewerState& next) {
-    const int width = state.width, height = state.height;
-    state = next;
-    state.width = width;
-    state.height = height;
-}
-
-void Viewer::open_session(Session session) {
-    if (session.state.scene == state.scene && scene_) {
-        show_state(session.state);
-        for (const std::string& note : session.notes) say(note, false);
-        session_ = std::move(session);
-    } else {
-        opening_ = Opening{.session = std::move(session)};
-    }
-}
-
-void Viewer::open(const std::string& path) {
-    try {
-        if (std::optional<Session> session = load_session(path)) {
-            open_session(*std::move(session));
-            settings_.add_recent(path);
-        } else {
-            Session scene;
-            scene.state = state;
-            scene.state.scene = path;
-            opening_ = Opening{.session = std::move(scene), .scene_only = true};
-        }
-    } catch (const Error& error) {
-        say(error.what(), true);
-    }
-}
-
-void Viewer::reload() {
-    BuildRequest request = wanted();
-    asked_ = request;
-    request.reload = true;
-    job_.request(std::move(request));
-}
-
-void Viewer::focus(const Vec2& pointer) {
-    const FrameLayout layout = make_layout(state);
-    const ViewRect& view = layout.scene.contains(pointer) ? layout.scene : layout.traced;
-    if (!built_ || !view.contains(pointer)) return;
-    const auto pointed = point_at(*built_, *values_, state, pointer_ray(camera(), pointer, view));
-    if (pointed) state.camera = focus_on(camera(), pointed->point, scene_->mesh.bounds());
-}
-
-void Viewer::apply(const std::vector<Action>& actions) {
-    for (const Action& action : actions) {
-        try {
-            apply_one(action);
-        } catch (const Error& error) {
-            say(error.what(), true);
-        }
-    }
-}
-
-void Viewer::apply_one(const Action& action) {
-    const auto go_to = [this](const std::optional<ViewerState>& step) {
-        if (!step) return;
-        if (step->scene == state.scene) {
-            state = *step;
-        } else {
-            Session session = this->session();
-            session.state = *step;
-            opening_ = Opening{.session = std::move(session)};
-        }
-    };
-    if (const auto* open_path = std::get_if<OpenPath>(&action)) {
-        open(open_path->path);
-    } else if (const auto* save = std::get_if<SaveSession>(&action)) {
-        save_session(session(), save->path);
-        settings_.add_recent(save->path);
-        say("saved " + save->path, false);
-    } else if (std::holds_alternative<CopySession>(action)) {
-        set_clipboard(print_session(session(), "."));
-        say("copied the session as text", false);
-    } else if (std::holds_alternative<PasteSession>(action)) {
-        open_session(parse_session(clipboard(), ".", "clipboard"));
-    } else if (const auto* copy = std::get_if<CopyText>(&action)) {
-        set_clipboard(copy->text);
-    } else if (std::holds_alternative<UndoStep>(action)) {
-        go_to(undo_.back(state));
-    } else if (std::holds_alternative<RedoStep>(action)) {
-        go_to(undo_.forward(state));
-    } else if (std::holds_alternative<CancelWork>(action)) {
-        job_.cancel();
-        opening_.reset();
-        asked_ = wanted();
-        cancelled_ = !shown_ || !satisfies(*shown_, *asked_);
-    } else if (std::holds_alternative<BuildAgain>(action)) {
-        asked_.reset();
-    } else if (std::holds_alternative<DismissMessage>(action)) {
-        message_.clear();
-    } else if (const auto* point = std::get_if<FocusPoint>(&action)) {
-        focus(point->pointer);
-    } else if (const auto* store = std::get_if<StoreView>(&action)) {
-        state.stored_views[static_cast<size_t>(store->slot)] = camera();
-        say("stored view " + std::to_string(store->slot + 1), false);
-    }
 }
 
 PanelInput Viewer::panel_input(const Vec2& pointer) const {
@@ -321,6 +255,16 @@ PanelInput Viewer::panel_input(const Vec2& pointer) const {
     input.message = message_;
     input.message_is_error = message_is_error_;
     input.recent = settings_.recent;
+    input.values = values_.get();
+    input.shared_count = shared_count_;
+    input.facts = facts_ ? &*facts_ : nullptr;
+    input.picked_place = picked_place_;
+    input.picked_count = picked_at_ ? picked_count_ : 0;
+    input.visits = rays_.cast().visits.get();
+    input.visits_progress = rays_.visits_progress();
+    input.ray_hit = rays_.cast().ray_hit;
+    input.check = rays_.check().get();
+    input.check_progress = rays_.check_progress();
     input.undo_count = undo_.back_count();
     input.redo_count = undo_.forward_count();
 

@@ -6,7 +6,11 @@
 
 #include "app/viewer/action.h"
 #include "app/viewer/build_job.h"
+#include "app/viewer/marks.h"
+#include "app/viewer/node_facts.h"
 #include "app/viewer/panels.h"
+#include "app/viewer/pick.h"
+#include "app/viewer/ray_work.h"
 #include "app/viewer/session.h"
 #include "app/viewer/settings.h"
 #include "app/viewer/undo.h"
@@ -43,6 +47,10 @@ public:
     const std::shared_ptr<const Scene>& scene() const { return scene_; }
     const std::shared_ptr<const Built>& built() const { return built_; }
     const std::shared_ptr<const BoxValues>& values() const { return values_; }
+    /// What hidden and isolated nodes leave to be seen; null before the first update.
+    const std::shared_ptr<const Visibility>& visibility() const { return visibility_; }
+    const CastResults& cast() const { return rays_.cast(); }
+    const std::shared_ptr<const bench::PictureCheck>& check() const { return rays_.check(); }
     /// The traced picture and its number; number 0: none yet.
     const Image& traced_image() const { return traced_image_; }
     uint64_t traced_version() const { return traced_version_; }
@@ -68,7 +76,22 @@ private:
         Session session;
         bool scene_only = false;  ///< all but scene and camera stays as it is then
     };
+    /// What node and triangle numbers belong to.
+    struct NodesKey {
+        std::string scene, recipe;
+        static NodesKey of(const ViewerState& state) { return {state.scene, state.recipe}; }
+        bool operator==(const NodesKey&) const = default;
+    };
     void take(const BuildResult& result);
+    /// Whether what is on screen is all that the request asks for.
+    bool shows(const BuildRequest& request) const;
+    void forget_nodes();
+    void update_nodes();
+    std::optional<PickPoint> pick_point(const Vec2& pointer) const;
+    float visible_surface(const PickPoint& point) const;
+    void pick_node(const Vec2& pointer);
+    void pick_ray(const Vec2& pointer);
+    void focus_selection();
     void request_build();
     void update_trace();
     void show_state(const ViewerState& next);
@@ -93,6 +116,17 @@ private:
     std::shared_ptr<const Built> built_;
     std::shared_ptr<const BoxValues> values_;
     std::shared_ptr<const TreeStats> tree_;
+    uint64_t shared_count_ = 0;
+
+    NodesKey nodes_of_;
+    std::shared_ptr<const Built> nodes_built_;  ///< that visibility_ and facts_ are of
+    std::vector<uint32_t> hidden_shown_;
+    uint32_t isolated_shown_ = kNoIndex;
+    std::shared_ptr<const Visibility> visibility_;
+    std::optional<NodeFacts> facts_;
+    std::optional<Vec2> picked_at_;               ///< pointer of the last click that selected a node
+    size_t picked_place_ = 0, picked_count_ = 0;  ///< the selected one among the nodes there
+    RayWork rays_;
 
     std::unique_ptr<ProgressiveTracer> tracer_;  ///< made when the first traced view is asked for
     std::optional<TraceSettings> tracing_;       ///< what the tracer was started with

@@ -78,6 +78,12 @@ Vec3 linear_from_srgb(const Vec3& srgb) {
     return {kLinear[nearest_byte(srgb.x)], kLinear[nearest_byte(srgb.y)], kLinear[nearest_byte(srgb.z)]};
 }
 
+Vec3 srgb_from_linear(const Vec3& linear) {
+    return Vec3(static_cast<float>(srgb_byte(linear.x)), static_cast<float>(srgb_byte(linear.y)),
+                static_cast<float>(srgb_byte(linear.z))) /
+           255.0f;
+}
+
 void store_linear(const Vec3& linear, uint8_t* rgba) {
     rgba[0] = srgb_byte(linear.x);
     rgba[1] = srgb_byte(linear.y);

@@ -39,6 +39,9 @@ float linear_from_srgb(uint8_t byte);
 /// Linear RGB of sRGB components in [0, 1] (to the nearest byte).
 Vec3 linear_from_srgb(const Vec3& srgb);
 
+/// sRGB components in [0, 1] (to the nearest byte) of linear RGB.
+Vec3 srgb_from_linear(const Vec3& linear);
+
 /// Writes an opaque pixel from linear RGB.
 void store_linear(const Vec3& linear, uint8_t* rgba);
 

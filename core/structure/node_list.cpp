@@ -47,12 +47,23 @@ std::string check_leaf(const NodeList& list, size_t i, std::vector<uint32_t>& la
     return {};
 }
 
+/// Sorts the outlines by node, those of one node in their order; where each node's begin, if there are any.
+std::vector<uint32_t> sort_outlines(NodeList& list) {
+    if (list.outlines.empty()) return {};
+    if (!std::ranges::is_sorted(list.outlines, {}, &OutlineSegment::node))
+        std::ranges::stable_sort(list.outlines, {}, &OutlineSegment::node);
+    std::vector<uint32_t> begin(list.nodes.size() + 1, 0);
+    for (const OutlineSegment& segment : list.outlines) ++begin[segment.node + 1];
+    for (size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    return begin;
+}
+
 }  // namespace
 
 size_t LevelTable::byte_count() const {
     return list.nodes.size() * sizeof(NodeView) + list.ref_prims.size() * sizeof(uint32_t) +
            list.outlines.size() * sizeof(OutlineSegment) + list.half_areas.size() * sizeof(double) +
-           (order.size() + level_begin.size() + leaf_count.size()) * sizeof(uint32_t);
+           (order.size() + level_begin.size() + leaf_count.size() + outline_begin.size()) * sizeof(uint32_t);
 }
 
 std::vector<uint32_t> LevelTable::cut(size_t level_wanted) const {
@@ -93,6 +104,7 @@ LevelTable make_level_table(NodeList list) {
         table.leaf_count.push_back(group_begin[2 * l + 1] - group_begin[2 * l]);
         table.level_begin.push_back(group_begin[2 * l + 2]);
     }
+    table.outline_begin = sort_outlines(list);
     table.list = std::move(list);
     return table;
 }
@@ -114,6 +126,9 @@ std::string check_nodes(const NodeList& list, size_t triangle_count) {
     for (size_t i = 0; i < nodes.size(); ++i)
         if (nodes[i].kind == NodeKind::Inner && has_child[i] == 0)
             return "inner node " + std::to_string(i) + " has no child";
+    for (const OutlineSegment& segment : list.outlines)
+        if (segment.node >= nodes.size())
+            return "an outline belongs to node " + std::to_string(segment.node) + ", which does not exist";
     const auto missing = std::find(last_leaf.begin(), last_leaf.end(), kNoIndex);
     if (missing != last_leaf.end())
         return "primitive " + std::to_string(missing - last_leaf.begin()) + " is in no leaf";

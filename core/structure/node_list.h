@@ -21,7 +21,7 @@ struct NodeView {
     uint32_t ref_count = 0;
 };
 
-/// Line segment of a cell's outline where the cell is no box.
+/// Line segment of the outline of a node that is no box: an edge of a convex cell, a part of a circle.
 struct OutlineSegment {
     uint32_t node;
     Vec3 from, to;
@@ -31,7 +31,7 @@ struct OutlineSegment {
 struct NodeList {
     std::vector<NodeView> nodes;
     std::vector<uint32_t> ref_prims;
-    std::vector<OutlineSegment> outlines;  ///< empty where the boxes are the cells
+    std::vector<OutlineSegment> outlines;  ///< in any order; a node that has none is drawn as its box
     /// Half the surface area of each node's volume where the volumes are no boxes; empty: that of the boxes.
     std::vector<double> half_areas;
     /// Whether every child's box lies in its parent's. False for volumes other than boxes: each contains what
@@ -44,12 +44,15 @@ struct NodeList {
 };
 
 /// Nodes grouped by level. order[level_begin[l] .. level_begin[l + 1]) are the nodes at level l: leaves
-/// first, then inner nodes, each by descending half area of the volume, ties by index.
+/// first, then inner nodes, each by descending half area of the volume, ties by index. list.outlines
+/// are sorted by node.
 struct LevelTable {
     NodeList list;
     std::vector<uint32_t> order;
     std::vector<uint32_t> level_begin;  ///< level_count() + 1 entries
     std::vector<uint32_t> leaf_count;   ///< leaves at each level
+    /// Outline of node n: list.outlines[outline_begin[n] .. outline_begin[n + 1]). Empty without outlines.
+    std::vector<uint32_t> outline_begin;
 
     size_t level_count() const { return leaf_count.size(); }
     size_t byte_count() const;
@@ -57,6 +60,12 @@ struct LevelTable {
         return std::span(order).subspan(level_begin[l], level_begin[l + 1] - level_begin[l]);
     }
     std::span<const uint32_t> leaves(size_t l) const { return level(l).first(leaf_count[l]); }
+    /// Empty where the node is drawn as its box.
+    std::span<const OutlineSegment> outline(uint32_t node) const {
+        if (outline_begin.empty()) return {};
+        return std::span(list.outlines)
+            .subspan(outline_begin[node], outline_begin[node + 1] - outline_begin[node]);
+    }
     /// The cut at `level`: its nodes and the leaves above it. With the level's own leaves they cover all
     /// references.
     std::vector<uint32_t> cut(size_t level) const;

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "app/viewer/background.h"
+#include "app/viewer/layout.h"
+#include "app/viewer/visits.h"
+#include "bench/picture_check.h"
+#include "core/catalog/pipeline.h"
+
+namespace boxwood {
+
+/// The rays that a session asks for beside the traced picture: the picked ray, the visits of the nodes, and
+/// the check of the picture. Whole pictures are cast in the background. One thread.
+class RayWork {
+public:
+    /// Takes over what is finished and starts what the state asks for. A check is of the structure, view and
+    /// size it was asked for: where one of these changes the state's request is taken back.
+    void update(ViewerState& state, const std::shared_ptr<const Built>& built, const Camera& camera);
+    /// Stops the check; the state's request is taken back.
+    void cancel_check(ViewerState& state);
+
+    const CastResults& cast() const { return cast_; }
+    /// Null: not asked for, or not done.
+    const std::shared_ptr<const bench::PictureCheck>& check() const { return check_; }
+    WorkProgress check_progress() const { return check_work_.progress(); }
+    WorkProgress visits_progress() const { return visits_work_.progress(); }
+    bool busy() const { return visits_progress().running || check_progress().running; }
+    void wait() const;
+
+private:
+    struct VisitsKey {
+        std::shared_ptr<const Built> built;
+        Mode mode = Mode::Exact;
+        std::optional<PickedRay> ray{};  ///< none: of the picture
+        Camera camera{};
+        int width = 0, height = 0;
+        bool operator==(const VisitsKey&) const = default;
+    };
+    struct CheckKey {
+        std::shared_ptr<const Built> built;
+        Camera camera;
+        int width = 0, height = 0, rays = 0;
+        bool operator==(const CheckKey&) const = default;
+    };
+    void update_ray(const ViewerState& state, const std::shared_ptr<const Built>& built);
+    void update_visits(const ViewerState& state, const std::shared_ptr<const Built>& built,
+                       const Camera& camera);
+    void update_check(ViewerState& state, const std::shared_ptr<const Built>& built, const Camera& camera);
+
+    CastResults cast_;
+    std::optional<VisitsKey> hit_of_, visits_of_;  ///< what was asked for last; none: nothing
+    std::shared_ptr<const bench::PictureCheck> check_;
+    std::optional<CheckKey> check_of_, checked_;  ///< what was asked for, what the last result is of
+    std::shared_ptr<const bench::PictureCheck> last_check_;
+    Background<Visits> visits_work_;
+    Background<bench::PictureCheck> check_work_;
+};
+
+}  // namespace boxwood

@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "app/viewer/clipboard.h"
+#include "app/viewer/viewer.h"
+#include "core/base/error.h"
+
+namespace boxwood {
+
+void Viewer::show_state(const ViewerState& next) {
+    const int width = state.width, height = state.height;
+    state = next;
+    state.width = width;
+    state.height = height;
+    nodes_of_ = NodesKey::of(state);
+}
+
+void Viewer::open_session(Session session) {
+    if (session.state.scene == state.scene && scene_) {
+        show_state(session.state);
+        for (const std::string& note : session.notes) say(note, false);
+        session_ = std::move(session);
+    } else {
+        opening_ = Opening{.session = std::move(session)};
+    }
+}
+
+void Viewer::open(const std::string& path) {
+    try {
+        if (std::optional<Session> session = load_session(path)) {
+            open_session(*std::move(session));
+            settings_.add_recent(path);
+        } else {
+            Session scene;
+            scene.state = state;
+            scene.state.scene = path;
+            opening_ = Opening{.session = std::move(scene), .scene_only = true};
+        }
+    } catch (const Error& error) {
+        say(error.what(), true);
+    }
+}
+
+void Viewer::reload() {
+    BuildRequest request = wanted();
+    asked_ = request;
+    request.reload = true;
+    job_.request(std::move(request));
+}
+
+void Viewer::focus(const Vec2& pointer) {
+    const FrameLayout layout = make_layout(state);
+    const ViewRect& view = layout.scene.contains(pointer) ? layout.scene : layout.traced;
+    if (!built_ || !view.contains(pointer)) return;
+    const auto pointed = point_at(*built_, *values_, state, pointer_ray(camera(), pointer, view));
+    if (pointed) state.camera = focus_on(camera(), pointed->point, scene_->mesh.bounds());
+}
+
+std::optional<PickPoint> Viewer::pick_point(const Vec2& pointer) const {
+    const FrameLayout layout = make_layout(state);
+    const ViewRect& view = layout.scene.contains(pointer) ? layout.scene : layout.traced;
+    if (!built_ || !view.contains(pointer)) return std::nullopt;
+    return PickPoint{pointer, view, camera(), std::numeric_limits<float>::infinity()};
+}
+
+float Viewer::visible_surface(const PickPoint& point) const {
+    if (!state.show_mesh) return point.surface_t;
+    Ray ray = pointer_ray(point.camera, point.pointer, point.view);
+    constexpr int kMostHidden = 1000;  // triangles passed through
+    for (int i = 0; i < kMostHidden; ++i) {
+        Hit hit;
+        built_->structure.closest_hits(scene_->mesh, std::span(&ray, 1), std::span(&hit, 1), state.mode,
+                                       Task{});
+        if (!hit.is_hit() || visibility_->is_whole() || visibility_->triangles[hit.prim] != 0) return hit.t;
+        ray.t_min = std::nextafter(hit.t, std::numeric_limits<float>::infinity());
+    }
+    return point.surface_t;
+}
+
+void Viewer::pick_node(const Vec2& pointer) {
+    std::optional<PickPoint> point = pick_point(pointer);
+    if (!point) return;
+    point->surface_t = visible_surface(*point);
+    const std::vector<uint32_t> candidates =
+        pick_nodes(state, *built_->levels, *visibility_, rays_.cast().visits.get(), *point);
+    constexpr float kSamePlace = 3.0f;  // pixels
+    const bool is_again = picked_at_ && glm::distance(*picked_at_, pointer) <= kSamePlace;
+    state.node = next_candidate(candidates, is_again ? state.node : kNoIndex);
+    state.prim = kNoIndex;
+    if (!is_again) picked_at_ = pointer;
+    picked_count_ = candidates.size();
+    picked_place_ = static_cast<size_t>(std::ranges::find(candidates, state.node) - candidates.begin());
+    if (state.node == kNoIndex) {
+        picked_at_.reset();
+    } else {
+        state.side = SidePanel::Node;
+    }
+}
+
+void Viewer::pick_ray(const Vec2& pointer) {
+    const std::optional<PickPoint> point = pick_point(pointer);
+    if (!point) return;
+    const Ray ray = pointer_ray(point->camera, point->pointer, point->view);
+    state.ray = PickedRay{ray.origin, ray.direction};
+    state.box_color = BoxColor::Visits;
+    state.visit_rays = VisitRays::Picked;
+}
+
+void Viewer::focus_selection() {
+    if (!built_) return;
+    const NodeList& list = built_->levels->list;
+    Box box;
+    if (state.prim < scene_->mesh.triangle_count()) {
+        box = scene_->mesh.triangle(state.prim).bounds();
+    } else if (state.node < list.nodes.size()) {
+        box = list.nodes[state.node].bounds;
+    }
+    if (!box.is_empty()) state.camera = whole_view(camera(), box, up_vector(state.up_axis));
+}
+
+void Viewer::apply(const std::vector<Action>& actions) {
+    for (const Action& action : actions) {
+        try {
+            apply_one(action);
+        } catch (const Error& error) {
+            say(error.what(), true);
+        }
+    }
+}
+
+void Viewer::apply_one(const Action& action) {
+    const auto go_to = [this](const std::optional<ViewerState>& step) {
+        if (!step) return;
+        if (step->scene == state.scene) {
+            state = *step;
+            nodes_of_ = NodesKey::of(state);
+        } else {
+            Session session = this->session();
+            session.state = *step;
+            opening_ = Opening{.session = std::move(session)};
+        }
+    };
+    if (const auto* open_path = std::get_if<OpenPath>(&action)) {
+        open(open_path->path);
+    } else if (const auto* save = std::get_if<SaveSession>(&action)) {
+        save_session(session(), save->path);
+        settings_.add_recent(save->path);
+        say("saved " + save->path, false);
+    } else if (std::holds_alternative<CopySession>(action)) {
+        set_clipboard(print_session(session(), "."));
+        say("copied the session as text", false);
+    } else if (std::holds_alternative<PasteSession>(action)) {
+        open_session(parse_session(clipboard(), ".", "clipboard"));
+    } else if (const auto* copy = std::get_if<CopyText>(&action)) {
+        set_clipboard(copy->text);
+    } else if (std::holds_alternative<UndoStep>(action)) {
+        go_to(undo_.back(state));
+    } else if (std::holds_alternative<RedoStep>(action)) {
+        go_to(undo_.forward(state));
+    } else if (std::holds_alternative<CancelWork>(action)) {
+        job_.cancel();
+        opening_.reset();
+        asked_ = wanted();
+        cancelled_ = !shows(*asked_);
+    } else if (std::holds_alternative<BuildAgain>(action)) {
+        asked_.reset();
+    } else if (std::holds_alternative<DismissMessage>(action)) {
+        message_.clear();
+    } else if (const auto* point = std::get_if<FocusPoint>(&action)) {
+        focus(point->pointer);
+    } else if (std::holds_alternative<FocusSelection>(action)) {
+        focus_selection();
+    } else if (const auto* pick = std::get_if<PickNode>(&action)) {
+        pick_node(pick->pointer);
+    } else if (const auto* ray = std::get_if<PickRay>(&action)) {
+        pick_ray(ray->pointer);
+    } else if (std::holds_alternative<CancelCheck>(action)) {
+        rays_.cancel_check(state);
+    } else if (const auto* store = std::get_if<StoreView>(&action)) {
+        state.stored_views[static_cast<size_t>(store->slot)] = camera();
+        say("stored view " + std::to_string(store->slot + 1), false);
+    }
+}
+
+}  // namespace boxwood

@@ -1,0 +1,145 @@
+#include "bench/picture_check.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "bench/screened_oracle.h"
+#include "core/base/parallel.h"
+#include "core/base/timer.h"
+
+namespace boxwood::bench {
+namespace {
+
+constexpr size_t kBatch = 256;          // rays between two looks at the task
+constexpr size_t kTimedRays = 1 << 14;  // of one mode before it is the other one's turn
+
+std::vector<Ray> rays_through(std::span<const uint32_t> pixels, const PictureCheckSettings& settings) {
+    const CameraFrame frame =
+        camera_frame(settings.camera, static_cast<double>(settings.width) / settings.height);
+    const auto width = static_cast<uint32_t>(settings.width);
+    std::vector<Ray> rays;
+    rays.reserve(pixels.size());
+    for (const uint32_t pixel : pixels) {
+        rays.push_back(
+            camera_ray(frame, pixel % width + 0.5, pixel / width + 0.5, settings.width, settings.height));
+    }
+    return rays;
+}
+
+void cast(const Mesh& mesh, const Structure& structure, std::span<const Ray> rays, std::span<Hit> hits,
+          Mode mode, const Task& task, std::atomic<uint64_t>* done = nullptr) {
+    parallel_for(rays.size(), kBatch, [&](size_t begin, size_t end) {
+        structure.closest_hits(mesh, rays.subspan(begin, end - begin), hits.subspan(begin, end - begin), mode,
+                               task);
+        if (done != nullptr) *done += end - begin;
+    });
+}
+
+/// Both modes in turns over the same rays until the time is used, so that a change of the machine's speed
+/// meets both.
+void time_modes(const Mesh& mesh, const Structure& structure, const PictureCheckSettings& settings,
+                PictureCheck& check, Task& task) {
+    const std::vector<uint32_t> pixels = spread_order(check.rays, check.rays);
+    std::vector<Hit> hits(kTimedRays);
+    std::array<double, 2> ms{};
+    const Timer timer;
+    const auto is_time_left = [&] { return timer.milliseconds() < 1000.0 * settings.seconds; };
+    for (size_t first = 0; is_time_left() && !task.stopped();) {
+        const size_t count = std::min(kTimedRays, pixels.size() - first);
+        const std::vector<Ray> rays = rays_through(std::span(pixels).subspan(first, count), settings);
+        for (const Mode mode : {Mode::Exact, Mode::Fast}) {
+            // A slow structure gets through a part of the rays only: what is cast in small steps counts.
+            const auto i = static_cast<size_t>(mode);
+            for (size_t begin = 0; begin < count && (begin == 0 || is_time_left()); begin += 8 * kBatch) {
+                const size_t step = std::min(8 * kBatch, count - begin);
+                const Timer step_timer;
+                cast(mesh, structure, std::span(rays).subspan(begin, step), std::span(hits).first(step), mode,
+                     task);
+                ms[i] += step_timer.milliseconds();
+                check.modes[i].timed_rays += step;
+            }
+        }
+        first = first + count < pixels.size() ? first + count : 0;
+    }
+    for (size_t i = 0; i < ms.size(); ++i) {
+        if (ms[i] > 0.0)
+            check.modes[i].rays_per_second = 1000.0 * static_cast<double>(check.modes[i].timed_rays) / ms[i];
+    }
+}
+
+enum class Verdict : uint8_t { Right, WrongHit, WrongPrim, WrongT };
+
+Verdict judge(const std::optional<oracle::ExactHit>& expected, const Hit& found, Mode mode) {
+    if (found.is_hit() != expected.has_value()) return Verdict::WrongHit;
+    if (!expected) return Verdict::Right;
+    if (found.prim != expected->prim) return Verdict::WrongPrim;
+    if (mode == Mode::Fast) return Verdict::Right;
+    const float t = oracle::round_to_float(expected->t);
+    return std::bit_cast<uint32_t>(found.t) == std::bit_cast<uint32_t>(t) ? Verdict::Right : Verdict::WrongT;
+}
+
+}  // namespace
+
+std::vector<uint32_t> spread_order(uint64_t total, uint64_t count) {
+    // Steps of the golden ratio, which keeps every first part even; coprime, so that each number comes once.
+    uint64_t step = std::max<uint64_t>(
+        static_cast<uint64_t>(std::llround(static_cast<double>(total) / 1.6180339887498949)), 1);
+    while (std::gcd(step, total) > 1) ++step;
+    std::vector<uint32_t> order;
+    uint64_t at = 0;
+    for (uint64_t i = 0; i < std::min(count, total); ++i) {
+        order.push_back(static_cast<uint32_t>(at));
+        at = (at + step) % total;
+    }
+    return order;
+}
+
+PictureCheck check_picture(const Mesh& mesh, const Structure& structure, const PictureCheckSettings& settings,
+                           Task& task) {
+    const Timer timer;
+    PictureCheck check;
+    check.width = settings.width;
+    check.height = settings.height;
+    check.rays = static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
+    std::vector<uint32_t> pixels = spread_order(check.rays, settings.sample_count);
+    std::ranges::sort(pixels);
+    check.checked = pixels.size();
+    task.done = 0;
+    task.total = 3 * pixels.size();  // cast in both modes, judged
+    const std::vector<Ray> rays = rays_through(pixels, settings);
+    std::array<std::vector<Hit>, 2> hits{std::vector<Hit>(rays.size()), std::vector<Hit>(rays.size())};
+    for (const Mode mode : {Mode::Exact, Mode::Fast})
+        cast(mesh, structure, rays, hits[static_cast<size_t>(mode)], mode, task, &task.done);
+    if (settings.seconds > 0.0) time_modes(mesh, structure, settings, check, task);
+
+    const ScreenedOracle oracle(mesh);
+    std::array<std::vector<Verdict>, 2> verdicts{std::vector<Verdict>(rays.size()),
+                                                 std::vector<Verdict>(rays.size())};
+    parallel_for(rays.size(), 8, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end && !task.stopped(); ++i) {
+            const std::optional<oracle::ExactHit> expected = oracle.closest_hit(rays[i]);
+            for (const Mode mode : {Mode::Exact, Mode::Fast}) {
+                const auto m = static_cast<size_t>(mode);
+                verdicts[m][i] = judge(expected, hits[m][i], mode);
+            }
+            ++task.done;
+        }
+    });
+    for (size_t m = 0; m < verdicts.size(); ++m) {
+        ModeCheck& mode = check.modes[m];
+        for (size_t i = 0; i < rays.size(); ++i) {
+            const Verdict verdict = verdicts[m][i];
+            if (verdict == Verdict::Right) continue;
+            mode.wrong_hits += verdict == Verdict::WrongHit ? 1 : 0;
+            mode.wrong_prims += verdict == Verdict::WrongPrim ? 1 : 0;
+            mode.wrong_t += verdict == Verdict::WrongT ? 1 : 0;
+            mode.wrong_pixels.push_back(pixels[i]);
+        }
+    }
+    check.ms = timer.milliseconds();
+    return check;
+}
+
+}  // namespace boxwood::bench

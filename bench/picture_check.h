@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/task.h"
+#include "core/scene/camera.h"
+#include "core/scene/mesh.h"
+#include "core/structure/structure.h"
+
+namespace boxwood::bench {
+
+/// Which rays are checked: those through the pixel centres, as a traced picture casts them.
+struct PictureCheckSettings {
+    Camera camera;
+    int width = 0, height = 0;
+    uint64_t sample_count =
+        0;                 ///< of them judged by rational arithmetic, evenly spread; more than there are: all
+    double seconds = 1.0;  ///< for timing both modes; 0: not timed
+};
+
+/// What one mode answered. A wrong answer: a hit for a miss or a miss for a hit; another primitive than the
+/// nearest; in exact mode also another t than the exact one rounded once.
+struct ModeCheck {
+    uint64_t wrong_hits = 0, wrong_prims = 0, wrong_t = 0;
+    std::vector<uint32_t> wrong_pixels;  ///< y * width + x, ascending
+    uint64_t timed_rays = 0;             ///< of the picture, evenly spread, each as often as time allowed
+    double rays_per_second = 0.0;        ///< on all threads; 0: not timed
+
+    uint64_t wrong() const { return wrong_hits + wrong_prims + wrong_t; }
+};
+
+/// A picture's rays against rational arithmetic.
+struct PictureCheck {
+    int width = 0, height = 0;
+    uint64_t rays = 0;               ///< of the picture
+    uint64_t checked = 0;            ///< of them judged
+    std::array<ModeCheck, 2> modes;  ///< by Mode
+    double ms = 0.0;
+};
+
+/// On all threads; task.done counts rays cast and judged. After a stop not to be used. The counts and pixels
+/// are the same for any number of threads.
+PictureCheck check_picture(const Mesh& mesh, const Structure& structure, const PictureCheckSettings& settings,
+                           Task& task);
+
+/// The first `count` of the numbers below `total`, in an order in which any first part is spread evenly.
+std::vector<uint32_t> spread_order(uint64_t total, uint64_t count);
+
+}  // namespace boxwood::bench
