@@ -45,6 +45,45 @@ struct TestTransform {
     }
 };
 
+/// A BVH whose nodes are drawn as something else than their boxes: the diagonal in 13 parts.
+struct TestDiagonals {
+    static constexpr const char* kFamily = "test diagonals";
+    Bvh2 bvh;
+
+    template <Mode mode, class Counter>
+    void closest_hit(const Mesh& mesh, ClosestHit<mode>& closest, Counter& count) const {
+        bvh.closest_hit(mesh, closest, count);
+    }
+    template <Mode mode, class Counter>
+    bool any_hit(const Mesh& mesh, ClosestHit<mode>& ray, Counter& count) const {
+        return bvh.any_hit(mesh, ray, count);
+    }
+    NodeList list_nodes() const {
+        constexpr int kParts = 13;
+        NodeList list = bvh.list_nodes();
+        for (uint32_t node = 0; node < list.nodes.size(); ++node) {
+            const Box& box = list.nodes[node].bounds;
+            const auto at = [&](int part) {
+                const float x = static_cast<float>(part) / kParts;
+                return (1.0f - x) * box.lower + x * box.upper;
+            };
+            for (int part = 0; part < kParts; ++part) list.outlines.push_back({node, at(part), at(part + 1)});
+        }
+        return list;
+    }
+    size_t byte_count() const { return bvh.byte_count(); }
+};
+
+struct TestDiagonalTransform {
+    using Input = Bvh2;
+    using Output = TestDiagonals;
+
+    void describe(ParamVisitor&) {}
+    TestDiagonals apply(const Mesh&, std::span<const PrimRef>, const Bvh2& input, Task&) const {
+        return {input};
+    }
+};
+
 inline constexpr CatalogEntry kTestReferences[] = {
     row<WholeBoxes>("whole", "whole boxes", "test"),
     row<TestReferences>("copies", "copies of whole boxes", "test"),
@@ -55,6 +94,7 @@ inline constexpr CatalogEntry kTestBuilders[] = {
 };
 inline constexpr CatalogEntry kTestTransforms[] = {
     row<TestTransform>("same", "no change", "test"),
+    row<TestDiagonalTransform>("diagonals", "drawn as diagonals", "test"),
 };
 inline constexpr Catalog kTestCatalog{kTestReferences, kTestBuilders, kTestTransforms};
 
