@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <numeric>
 
 #include "bench/screened_oracle.h"
 #include "core/base/parallel.h"
+#include "core/base/rng.h"
 #include "core/base/timer.h"
 
 namespace boxwood::bench {
 namespace {
 
-constexpr size_t kBatch = 256;          // rays between two looks at the task
-constexpr size_t kTimedRays = 1 << 14;  // of one mode before it is the other one's turn
+constexpr size_t kBatch = 256;     // rays between two looks at the task
+constexpr uint64_t kBlock = 2048;  // rays timed at once
 
 std::vector<Ray> rays_through(std::span<const uint32_t> pixels, const PictureCheckSettings& settings) {
     const CameraFrame frame =
@@ -38,34 +38,29 @@ void cast(const Mesh& mesh, const Structure& structure, std::span<const Ray> ray
 }
 
 /// Both modes in turns over the same rays until the time is used, so that a change of the machine's speed
-/// meets both.
+/// meets both. Blocks of neighbouring pixels, as a picture is traced; the blocks are spread over the picture.
 void time_modes(const Mesh& mesh, const Structure& structure, const PictureCheckSettings& settings,
                 PictureCheck& check, Task& task) {
-    const std::vector<uint32_t> pixels = spread_order(check.rays, check.rays);
-    std::vector<Hit> hits(kTimedRays);
+    const std::vector<uint32_t> blocks = spread_order((check.rays + kBlock - 1) / kBlock);
+    std::vector<Hit> hits(kBlock);
     std::array<double, 2> ms{};
     const Timer timer;
-    const auto is_time_left = [&] { return timer.milliseconds() < 1000.0 * settings.seconds; };
-    for (size_t first = 0; is_time_left() && !task.stopped();) {
-        const size_t count = std::min(kTimedRays, pixels.size() - first);
-        const std::vector<Ray> rays = rays_through(std::span(pixels).subspan(first, count), settings);
+    for (size_t i = 0; timer.milliseconds() < 1000.0 * settings.seconds && !task.stopped(); ++i) {
+        const uint64_t first = blocks[i % blocks.size()] * kBlock;
+        std::vector<uint32_t> pixels(std::min(kBlock, check.rays - first));
+        std::iota(pixels.begin(), pixels.end(), static_cast<uint32_t>(first));
+        const std::vector<Ray> rays = rays_through(pixels, settings);
         for (const Mode mode : {Mode::Exact, Mode::Fast}) {
-            // A slow structure gets through a part of the rays only: what is cast in small steps counts.
-            const auto i = static_cast<size_t>(mode);
-            for (size_t begin = 0; begin < count && (begin == 0 || is_time_left()); begin += 8 * kBatch) {
-                const size_t step = std::min(8 * kBatch, count - begin);
-                const Timer step_timer;
-                cast(mesh, structure, std::span(rays).subspan(begin, step), std::span(hits).first(step), mode,
-                     task);
-                ms[i] += step_timer.milliseconds();
-                check.modes[i].timed_rays += step;
-            }
+            const auto m = static_cast<size_t>(mode);
+            const Timer block_timer;
+            cast(mesh, structure, rays, std::span(hits).first(rays.size()), mode, task);
+            ms[m] += block_timer.milliseconds();
+            check.modes[m].timed_rays += rays.size();
         }
-        first = first + count < pixels.size() ? first + count : 0;
     }
-    for (size_t i = 0; i < ms.size(); ++i) {
-        if (ms[i] > 0.0)
-            check.modes[i].rays_per_second = 1000.0 * static_cast<double>(check.modes[i].timed_rays) / ms[i];
+    for (size_t m = 0; m < ms.size(); ++m) {
+        if (ms[m] > 0.0)
+            check.modes[m].rays_per_second = 1000.0 * static_cast<double>(check.modes[m].timed_rays) / ms[m];
     }
 }
 
@@ -82,17 +77,30 @@ Verdict judge(const std::optional<oracle::ExactHit>& expected, const Hit& found,
 
 }  // namespace
 
-std::vector<uint32_t> spread_order(uint64_t total, uint64_t count) {
-    // Steps of the golden ratio, which keeps every first part even; coprime, so that each number comes once.
-    uint64_t step = std::max<uint64_t>(
-        static_cast<uint64_t>(std::llround(static_cast<double>(total) / 1.6180339887498949)), 1);
+std::vector<uint32_t> even_sample(uint64_t total, uint64_t count) {
+    if (count >= total) {
+        std::vector<uint32_t> all(total);
+        std::iota(all.begin(), all.end(), 0u);
+        return all;
+    }
+    // One at random of each of `count` parts of about equal length: no pattern of the picture's rows.
+    Rng rng(1);
+    std::vector<uint32_t> sample;
+    for (uint64_t i = 0; i < count; ++i) {
+        const uint64_t begin = i * total / count, end = (i + 1) * total / count;
+        sample.push_back(static_cast<uint32_t>(begin + rng.next_index(end - begin)));
+    }
+    return sample;
+}
+
+std::vector<uint32_t> spread_order(uint64_t total) {
+    // Steps of about the golden ratio, which leaves no large gap; coprime, so that each number comes once.
+    constexpr double kGolden = 1.6180339887498949;
+    auto step = std::max<uint64_t>(static_cast<uint64_t>(static_cast<double>(total) / kGolden), 1);
     while (std::gcd(step, total) > 1) ++step;
     std::vector<uint32_t> order;
     uint64_t at = 0;
-    for (uint64_t i = 0; i < std::min(count, total); ++i) {
-        order.push_back(static_cast<uint32_t>(at));
-        at = (at + step) % total;
-    }
+    for (uint64_t i = 0; i < total; ++i, at = (at + step) % total) order.push_back(static_cast<uint32_t>(at));
     return order;
 }
 
@@ -103,8 +111,7 @@ PictureCheck check_picture(const Mesh& mesh, const Structure& structure, const P
     check.width = settings.width;
     check.height = settings.height;
     check.rays = static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
-    std::vector<uint32_t> pixels = spread_order(check.rays, settings.sample_count);
-    std::ranges::sort(pixels);
+    const std::vector<uint32_t> pixels = even_sample(check.rays, settings.sample_count);
     check.checked = pixels.size();
     task.done = 0;
     task.total = 3 * pixels.size();  // cast in both modes, judged

@@ -25,7 +25,7 @@ struct PictureCheckSettings {
 struct ModeCheck {
     uint64_t wrong_hits = 0, wrong_prims = 0, wrong_t = 0;
     std::vector<uint32_t> wrong_pixels;  ///< y * width + x, ascending
-    uint64_t timed_rays = 0;             ///< of the picture, evenly spread, each as often as time allowed
+    uint64_t timed_rays = 0;             ///< as many of the picture as time allowed
     double rays_per_second = 0.0;        ///< on all threads; 0: not timed
 
     uint64_t wrong() const { return wrong_hits + wrong_prims + wrong_t; }
@@ -45,7 +45,10 @@ struct PictureCheck {
 PictureCheck check_picture(const Mesh& mesh, const Structure& structure, const PictureCheckSettings& settings,
                            Task& task);
 
-/// The first `count` of the numbers below `total`, in an order in which any first part is spread evenly.
-std::vector<uint32_t> spread_order(uint64_t total, uint64_t count);
+/// `count` different numbers below `total`, ascending and evenly spread; all where there are no more.
+std::vector<uint32_t> even_sample(uint64_t total, uint64_t count);
+
+/// The numbers below `total` in an order in which every first part is spread over all.
+std::vector<uint32_t> spread_order(uint64_t total);
 
 }  // namespace boxwood::bench

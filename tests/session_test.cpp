@@ -40,7 +40,16 @@ Session unusual_session() {
     s.levels = {2, LevelRange::kMaxLevel};
     s.leaves_above = s.show_boxes = s.show_mesh = s.show_red = false;
     s.show_wire = s.show_reference_boxes = s.see_through = true;
-    s.box_color = BoxColor::SahShare;
+    s.show_shared = s.show_empty = s.show_unvisited = true;
+    s.box_color = BoxColor::Visits;
+    s.visit_rays = VisitRays::Picture;
+    s.ray = PickedRay{{0.5f, 1e-7f, -3.0f}, {0.0f, -1.0f, 1.0f / 3.0f}};
+    s.node = 0;
+    s.prim = 77;
+    s.hidden_nodes = {5, 3};
+    s.isolated = 2147483647;
+    s.side = SidePanel::Verify;
+    s.verify_rays = 100000;
     s.traced = TracedView::Over;
     s.shading = Shading::HeatTests;
     s.spp = 7;
@@ -128,6 +137,15 @@ TEST(Session, RefusesWrongTypesAndValuesOutOfRange) {
     EXPECT_NE(with(R"("views": {"10": {}})").find("\"9\""), std::string::npos);
     EXPECT_NE(with(R"("views": [])"), "");
     EXPECT_NE(with(R"("recipe": 3)").find("text"), std::string::npos);
+    EXPECT_NE(with(R"("node": -1)"), "");
+    EXPECT_NE(with(R"("node": 4294967295)"), "") << "that is no node";
+    EXPECT_NE(with(R"("hidden": 3)"), "");
+    EXPECT_NE(with(R"("hidden": [1, "2"])"), "");
+    EXPECT_NE(with(R"("ray": {"origin": [0, 0, 0]})").find("direction"), std::string::npos);
+    EXPECT_NE(with(R"("ray": {"origin": [0, 0, 0], "direction": [0, 0, 0]})").find("zero"),
+              std::string::npos);
+    EXPECT_NE(with(R"("verify_rays": -5)"), "");
+    EXPECT_NE(with(R"("side": "right")").find("verify"), std::string::npos);
     EXPECT_NE(with(R"("check": {"pixels": -1})"), "");
 }
 
