@@ -75,8 +75,8 @@ void Frame::run_interface(Viewer& viewer, const FrameLayout& layout) {
     input.gpu_bytes = scene_renderer_.byte_count();
 
     std::vector<Action> actions = edit(viewer.state, input, layout, viewer.panel_memory);
-    const Box box = viewer.scene() ? viewer.scene()->mesh.bounds() : Box{};
-    const bool moving = move_camera(viewer.state, view_input_, layout, viewer.camera(), box, actions);
+    const bool moving =
+        move_camera(viewer.state, view_input_, layout, viewer.camera(), viewer.scene_bounds(), actions);
     handle_keys(viewer.state, input, viewer.panel_memory, viewer.camera(),
                 view_input_.drag == ViewInput::Drag::Look, actions);
     editing_ = moving || ImGui::IsAnyItemActive();

@@ -118,10 +118,9 @@ void handle_toggles(ViewerState& state) {
 void handle_views(ViewerState& state, const PanelInput& input, const Camera& camera,
                   std::vector<Action>& actions) {
     const ImGuiIO& io = ImGui::GetIO();
-    const Box box = input.scene != nullptr ? input.scene->mesh.bounds() : Box{};
     for (int axis = 0; axis < 3; ++axis) {
         if (pressed('X' + axis)) {
-            state.camera = axis_view(camera, box, axis, io.KeyShift, up_vector(state.up_axis));
+            state.camera = axis_view(camera, input.scene_bounds, axis, io.KeyShift, up_vector(state.up_axis));
         }
     }
     if (pressed(key::kHome)) state.camera.reset();

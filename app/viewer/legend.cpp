@@ -220,7 +220,8 @@ void legends(const Context& context) {
             const float last = static_cast<float>(scale.palette.size() - 1);
             const float at = std::clamp(x, 0.0f, 1.0f) * last;
             const size_t i = std::min(static_cast<size_t>(at), scale.palette.size() - 2);
-            return srgb_from_linear(glm::mix(scale.palette[i], scale.palette[i + 1], at - static_cast<float>(i)));
+            return srgb_from_linear(
+                glm::mix(scale.palette[i], scale.palette[i + 1], at - static_cast<float>(i)));
         };
         box_height = legend_window(context, "box legend", context.layout.scene, box_legend(context), color);
     }

@@ -143,8 +143,8 @@ void wrong_marks(const Context& context) {
         if (left-- == 0) break;
         const float x = view.x + static_cast<float>(pixel % width) + 0.5f;
         const float y = view.y + static_cast<float>(pixel / width) + 0.5f;
-        draw.AddCircle({x, y}, radius, dark, 12, 2.6f * context.scale);
-        draw.AddCircle({x, y}, radius, bright, 12, 1.3f * context.scale);
+        draw.AddCircle({x, y}, radius, dark, 16, 3.2f * context.scale);
+        draw.AddCircle({x, y}, radius, bright, 16, 1.8f * context.scale);
         draw.AddRectFilled({x - 0.5f, y - 0.5f}, {x + 0.5f, y + 0.5f}, bright);
     }
 }

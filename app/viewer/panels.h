@@ -22,6 +22,7 @@ namespace boxwood {
 /// What panels show beside the state: results, progress, what other parts found out.
 struct PanelInput {
     const Scene* scene = nullptr;     ///< null: none is open yet
+    Box scene_bounds;                 ///< empty without a scene
     const Built* built = nullptr;     ///< what is on screen; null: no structure yet
     const TreeStats* tree = nullptr;  ///< of `built`
     Camera camera;                    ///< what the frame shows

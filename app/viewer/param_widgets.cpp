@@ -31,9 +31,9 @@ public:
 
 /// What a threshold means in this scene.
 std::string scene_numbers(const std::string& stage, const std::string& key, double value,
-                          const Scene* scene) {
-    if (scene == nullptr || stage != "evh" || key != "t") return {};
-    const double volume = scene->mesh.bounds().volume();
+                          const Box& bounds) {
+    if (bounds.is_empty() || stage != "evh" || key != "t") return {};
+    const double volume = bounds.volume();
     return "\nV / 2^t = " + number_text(volume) + " / 2^" + number_text(value) + " = " +
            number_text(volume * std::exp2(-value)) + " cubic world units.";
 }
@@ -52,7 +52,7 @@ public:
             ImGui::SliderInt("##value", &value, lower, upper, "%d",
                              ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : 0));
         end(key, value, usual,
-            range_text(lower, upper) + scene_numbers(stage_, key, value, context_.input.scene), help);
+            range_text(lower, upper) + scene_numbers(stage_, key, value, context_.input.scene_bounds), help);
     }
     void on_float(const char* key, float& value, float lower, float upper, const char* help) override {
         const float usual = defaults_.floats[key];
@@ -61,7 +61,7 @@ public:
         const double v = static_cast<double>(value);
         end(key, value, usual,
             range_text(static_cast<double>(lower), static_cast<double>(upper)) +
-                scene_numbers(stage_, key, v, context_.input.scene),
+                scene_numbers(stage_, key, v, context_.input.scene_bounds),
             help);
     }
     void on_bool(const char* key, bool& value, const char* help) override {
@@ -79,7 +79,7 @@ public:
     void on_area_limit(const char* relative_key, const char* absolute_key, AreaLimit& value,
                        const char* help) override {
         const AreaLimit usual = defaults_.limits[relative_key];
-        const double area = context_.input.scene ? context_.input.scene->mesh.bounds().surface_area() : 0.0;
+        const double area = context_.input.scene_bounds.surface_area();
         begin(value.absolute ? absolute_key : relative_key, value != usual, /*with_switch=*/true);
         float number = static_cast<float>(value.value);
         const float largest = value.absolute ? static_cast<float>(std::clamp(area, 1e-30, 1e30)) : 40.0f;

@@ -7,7 +7,8 @@ constexpr double kTimingSeconds = 1.0;
 
 }  // namespace
 
-void RayWork::update(ViewerState& state, const std::shared_ptr<const Built>& built, const Camera& camera) {
+void RayWork::update(ViewerState& state, const std::shared_ptr<const Built>& built, const Camera& camera,
+                     bool may_check) {
     if (std::optional<Visits> visits = visits_work_.take())
         cast_.visits = std::make_shared<const Visits>(std::move(*visits));
     if (std::optional<bench::PictureCheck> check = check_work_.take()) {
@@ -17,6 +18,7 @@ void RayWork::update(ViewerState& state, const std::shared_ptr<const Built>& bui
     update_ray(state, built);
     update_visits(state, built, camera);
     update_check(state, built, camera);
+    if (is_check_due_ && may_check) start_check();
 }
 
 void RayWork::update_ray(const ViewerState& state, const std::shared_ptr<const Built>& built) {
@@ -83,17 +85,20 @@ void RayWork::update_check(ViewerState& state, const std::shared_ptr<const Built
         if (check_of_) check_work_.cancel();
         check_of_.reset();
         check_.reset();
+        is_check_due_ = false;
         return;
     }
     if (check_of_ == key) return;
     check_of_ = key;
     check_.reset();
     check_work_.cancel();
-    if (checked_ == key) {
-        check_ = last_check_;
-        return;
-    }
-    check_work_.start([key](Task& task) {
+    is_check_due_ = checked_ != key;
+    if (!is_check_due_) check_ = last_check_;
+}
+
+void RayWork::start_check() {
+    is_check_due_ = false;
+    check_work_.start([key = *check_of_](Task& task) {
         const bench::PictureCheckSettings settings{.camera = key.camera,
                                                    .width = key.width,
                                                    .height = key.height,
@@ -108,6 +113,7 @@ void RayWork::cancel_check(ViewerState& state) {
     check_work_.cancel();
     check_of_.reset();
     check_.reset();
+    is_check_due_ = false;
 }
 
 void RayWork::wait() const {

@@ -16,8 +16,10 @@ namespace boxwood {
 class RayWork {
 public:
     /// Takes over what is finished and starts what the state asks for. A check is of the structure, view and
-    /// size it was asked for: where one of these changes the state's request is taken back.
-    void update(ViewerState& state, const std::shared_ptr<const Built>& built, const Camera& camera);
+    /// size it was asked for: where one of these changes the state's request is taken back. It waits until
+    /// `may_check`.
+    void update(ViewerState& state, const std::shared_ptr<const Built>& built, const Camera& camera,
+                bool may_check);
     /// Stops the check; the state's request is taken back.
     void cancel_check(ViewerState& state);
 
@@ -26,7 +28,7 @@ public:
     const std::shared_ptr<const bench::PictureCheck>& check() const { return check_; }
     WorkProgress check_progress() const { return check_work_.progress(); }
     WorkProgress visits_progress() const { return visits_work_.progress(); }
-    bool busy() const { return visits_progress().running || check_progress().running; }
+    bool busy() const { return is_check_due_ || visits_progress().running || check_progress().running; }
     void wait() const;
 
 private:
@@ -48,12 +50,14 @@ private:
     void update_visits(const ViewerState& state, const std::shared_ptr<const Built>& built,
                        const Camera& camera);
     void update_check(ViewerState& state, const std::shared_ptr<const Built>& built, const Camera& camera);
+    void start_check();
 
     CastResults cast_;
     std::optional<VisitsKey> hit_of_, visits_of_;  ///< what was asked for last; none: nothing
     std::shared_ptr<const bench::PictureCheck> check_;
     std::optional<CheckKey> check_of_, checked_;  ///< what was asked for, what the last result is of
     std::shared_ptr<const bench::PictureCheck> last_check_;
+    bool is_check_due_ = false;  ///< asked for and not started
     Background<Visits> visits_work_;
     Background<bench::PictureCheck> check_work_;
 };

@@ -41,9 +41,8 @@ Viewer::Viewer(Session session, Settings settings)
 Camera Viewer::camera() const {
     if (state.camera) return *state.camera;
     if (!scene_) return Camera{};
-    Camera camera = scene_->camera
-                        ? *scene_->camera
-                        : fit_camera(scene_->mesh.bounds(), Camera{}.fov, up_vector(state.up_axis));
+    Camera camera =
+        scene_->camera ? *scene_->camera : fit_camera(scene_bounds_, Camera{}.fov, up_vector(state.up_axis));
     // A view narrower than the one such cameras are made for keeps the width of what they show.
     const float aspect = scene_->camera ? 1.25f : 1.0f;
     const ViewRect view = make_layout(state).scene;
@@ -82,7 +81,8 @@ void Viewer::update(bool editing) {
     forget_nodes();
     request_build();
     update_trace();
-    rays_.update(state, built_, camera());
+    // The picture first: a check beside it would slow both down, and be timed as slow.
+    rays_.update(state, built_, camera(), !tracing_ || tracer_->state().converged);
     update_nodes();
     undo_.note(state, editing || opening_.has_value() || panel_memory.playing);
 }
@@ -160,6 +160,7 @@ void Viewer::take(const BuildResult& result) {
     if (scene_ != result.scene) {
         if (!is_built_in(state.scene)) settings_.add_recent(scene_file(state.scene));
         scene_ = result.scene;
+        scene_bounds_ = scene_->mesh.bounds();
         built_.reset();
         values_.reset();
         tree_.reset();
@@ -231,17 +232,21 @@ void Viewer::wait() {
         update(false);
         if (!build_error_.empty()) throw Error(build_exit_code_, build_error_);
     } while (job_.progress().running || opening_ || !shows(request_of(state)));
-    for (update(false); rays_.busy(); update(false)) rays_.wait();
-    if (!tracing_) return;
     constexpr double kLong = 1000.0;  // ms
-    while (!tracer_->wait(kLong)) {
-    }
-    update(false);
+    do {
+        update(false);
+        while (tracing_ && !tracer_->wait(kLong)) {
+        }
+        update(false);
+        rays_.wait();
+        update(false);
+    } while (rays_.busy());
 }
 
 PanelInput Viewer::panel_input(const Vec2& pointer) const {
     PanelInput input;
     input.scene = scene_.get();
+    input.scene_bounds = scene_bounds_;
     input.built = built_.get();
     input.tree = tree_.get();
     input.camera = camera();

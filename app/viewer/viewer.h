@@ -45,6 +45,7 @@ public:
     bool busy() const;
 
     const std::shared_ptr<const Scene>& scene() const { return scene_; }
+    const Box& scene_bounds() const { return scene_bounds_; }
     const std::shared_ptr<const Built>& built() const { return built_; }
     const std::shared_ptr<const BoxValues>& values() const { return values_; }
     /// What hidden and isolated nodes leave to be seen; null before the first update.
@@ -113,6 +114,7 @@ private:
     ExitCode build_exit_code_ = ExitCode::Done;
     double build_wait_ms_ = 0.0;
     std::shared_ptr<const Scene> scene_;
+    Box scene_bounds_;
     std::shared_ptr<const Built> built_;
     std::shared_ptr<const BoxValues> values_;
     std::shared_ptr<const TreeStats> tree_;

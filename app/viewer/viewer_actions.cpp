@@ -55,7 +55,7 @@ void Viewer::focus(const Vec2& pointer) {
     const ViewRect& view = layout.scene.contains(pointer) ? layout.scene : layout.traced;
     if (!built_ || !view.contains(pointer)) return;
     const auto pointed = point_at(*built_, *values_, state, pointer_ray(camera(), pointer, view));
-    if (pointed) state.camera = focus_on(camera(), pointed->point, scene_->mesh.bounds());
+    if (pointed) state.camera = focus_on(camera(), pointed->point, scene_bounds_);
 }
 
 std::optional<PickPoint> Viewer::pick_point(const Vec2& pointer) const {

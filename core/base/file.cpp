@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/base/descriptor.h"
 #include "core/base/error.h"
 
 namespace boxwood {
@@ -17,24 +18,6 @@ namespace {
 [[noreturn]] void refuse(const std::string& path, const std::string& reason) {
     throw Error(ExitCode::WrongUsage, path + ": cannot be written: " + reason);
 }
-
-/// A file descriptor with one owner.
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor() { close(); }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int number() const { return number_; }
-    bool close() {
-        const int number = number_;
-        number_ = -1;
-        return number < 0 || ::close(number) == 0;
-    }
-
-private:
-    int number_;
-};
 
 bool write_all(int descriptor, std::string_view content) {
     while (!content.empty()) {

@@ -14,28 +14,13 @@
 #include <string>
 #include <vector>
 
+#include "core/base/descriptor.h"
 #include "core/scene/import_stream.h"
 
 namespace boxwood {
 namespace {
 
 constexpr const char* kGuardVariable = "BOXWOOD_IMPORT_WORKER";  ///< a worker never starts another
-
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor() { close(); }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int number() const { return number_; }
-    void close() {
-        if (number_ >= 0) ::close(number_);
-        number_ = -1;
-    }
-
-private:
-    int number_;
-};
 
 /// The child: killed and waited for at the latest when this goes.
 class Child {
