@@ -1,5 +1,6 @@
 #include "app/command/shared.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -65,6 +66,23 @@ Built build_shown(const Recipe& recipe, std::shared_ptr<const Scene> scene, Stag
 std::vector<Recipe> parse_recipes(const std::vector<std::string>& texts) {
     std::vector<Recipe> recipes;
     for (const std::string& text : texts) recipes.push_back(parse_recipe(text));
+    return recipes;
+}
+
+std::vector<Recipe> exact_recipes() {
+    std::vector<Recipe> recipes;
+    for (const CatalogEntry& builder : builder_catalog()) {
+        if (!builder.exact) continue;
+        recipes.push_back(parse_recipe(builder.id));
+        for (const CatalogEntry& transform : transform_catalog()) {
+            if (transform.exact && std::string(transform.input) == builder.output)
+                recipes.push_back(parse_recipe(std::string(builder.id) + " > " + transform.id));
+        }
+    }
+    for (const CatalogEntry& references : reference_catalog()) {
+        const Recipe recipe = parse_recipe(std::string(references.id) + " > bvh-binned-sah");
+        if (std::ranges::find(recipes, recipe) == recipes.end()) recipes.push_back(recipe);
+    }
     return recipes;
 }
 

@@ -16,24 +16,6 @@ namespace {
 using bench::StressRow;
 using bench::StressSettings;
 
-/// Every exact builder over whole boxes, every other reference stage with one builder, every transform.
-std::vector<Recipe> exact_recipes() {
-    std::vector<Recipe> recipes;
-    for (const CatalogEntry& builder : builder_catalog()) {
-        if (!builder.exact) continue;
-        recipes.push_back(parse_recipe(builder.id));
-        for (const CatalogEntry& transform : transform_catalog()) {
-            if (transform.exact && std::string(transform.input) == builder.output)
-                recipes.push_back(parse_recipe(std::string(builder.id) + " > " + transform.id));
-        }
-    }
-    for (const CatalogEntry& references : reference_catalog()) {
-        const Recipe recipe = parse_recipe(std::string(references.id) + " > bvh-binned-sah");
-        if (std::ranges::find(recipes, recipe) == recipes.end()) recipes.push_back(recipe);
-    }
-    return recipes;
-}
-
 ReportRow report_row(const StressRow& row) {
     ReportRow cells;
     cells.set("recipe", row.recipe)
