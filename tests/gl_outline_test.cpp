@@ -40,6 +40,7 @@ TEST_F(GlTest, AnOutlineIsDrawnInPlaceOfTheBox) {
     EXPECT_TRUE(is_lit(image, 140, 110));
     EXPECT_FALSE(is_lit(image, 120, 100)) << "the right leaf's box";
     EXPECT_FALSE(is_lit(image, 140, 80));
+    EXPECT_EQ(at(image, 100, 100).red + at(image, 99, 99).red, 0) << "segments that the outline has not";
     DrawList root_alone = plain_list(levels, {0, 0});
     EXPECT_FALSE(is_lit(draw(root_alone, front_camera(true)), 140, 90)) << "an outline has its node's level";
 }

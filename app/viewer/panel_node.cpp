@@ -4,6 +4,7 @@
 
 #include "app/viewer/number_text.h"
 #include "app/viewer/panel_parts.h"
+#include "core/structure/sah.h"
 
 namespace boxwood::panel {
 namespace {
@@ -66,16 +67,14 @@ void number_rows(const Context& context, const NodeFacts& facts) {
               "Different triangles in it, or in the leaves below it: " + grouped(facts.prim_count) + " in " +
                   grouped(facts.references) + " references of " + grouped(facts.leaves_below) +
                   " leaves; nodes below: " + grouped(facts.nodes_below) + ".");
-    const uint32_t root = 0;
-    const Box& all = context.input.built->levels->list.nodes[root].bounds;
-    value_row(
-        context, "own share of cost", share_text(facts.own_share),
-        "(area / root area) \u00d7 " +
-            (node.kind == NodeKind::Leaf ? grouped(node.ref_count) + " tests" : std::string("1 visit")) +
-            ", over the SAH cost of the tree: (" + number_text(node.bounds.half_area()) + " / " +
-            number_text(all.half_area()) + ") \u00d7 " +
-            (node.kind == NodeKind::Leaf ? grouped(node.ref_count) : std::string("1")) + " / " +
-            number_text(context.input.tree->sah_cost) + ".");
+    const double cost = node.kind == NodeKind::Leaf ? leaf_cost(node.ref_count) : double(kTraversalCost);
+    const double sah_cost = context.input.tree->sah_cost;
+    const double probability = cost > 0.0 ? facts.own_share * sah_cost / cost : 0.0;
+    value_row(context, "own share of cost", share_text(facts.own_share),
+              "(area / root area) \u00d7 " + number_text(cost) +
+                  (node.kind == NodeKind::Leaf ? " tests" : " for the visit") +
+                  " / SAH cost of the tree = " + number_text(probability, 3) + " \u00d7 " +
+                  number_text(cost) + " / " + number_text(sah_cost) + ".");
     value_row(context, "with all below", share_text(facts.share_below),
               "Share of the SAH cost that the node and all nodes below it have.");
     if (const Visits* visits = context.input.visits; visits != nullptr) {

@@ -30,8 +30,7 @@ public:
 };
 
 /// What a threshold means in this scene.
-std::string scene_numbers(const std::string& stage, const std::string& key, double value,
-                          const Box& bounds) {
+std::string scene_numbers(const std::string& stage, const std::string& key, double value, const Box& bounds) {
     if (bounds.is_empty() || stage != "evh" || key != "t") return {};
     const double volume = bounds.volume();
     return "\nV / 2^t = " + number_text(volume) + " / 2^" + number_text(value) + " = " +
