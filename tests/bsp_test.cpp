@@ -117,7 +117,7 @@ TEST(BspPlane, ErrorStaysWithinItsBoundAndHalfOfThatWouldNotDo) {
             Coordinates x;
             for (float& value : x) value = coordinate();
             double used = used_bound(x, along);
-            for (int step = 0; step < 2500; ++step) {
+            for (int step = 0; step < 1200; ++step) {
                 Coordinates changed = x;
                 const size_t place = rng.next_index(12);
                 const bool is_small_step = rng.next() < 0.5f;
@@ -207,7 +207,7 @@ TEST(Bsp, LeavesHoldTheTrianglesThatReachThemAndMissNone) {
 TEST(Bsp, FindsTheSameHitsAsBruteForceThroughWallsEdgesAndCornersOfCells) {
     Task task;
     const Mesh mesh = lattice_mesh(150, 5);
-    const std::vector<Ray> rays = lattice_rays(3000, 6);
+    const std::vector<Ray> rays = lattice_rays(1500, 6);
     const Structure reference = run("none", mesh).structure;
     for (const char* recipe :
          {"bsp(traversal-cost=0, leaf-size=1)", "bsp(planes=triangles, traversal-cost=0)"}) {
@@ -245,7 +245,7 @@ TEST(BspPiece, NoSideIsLostWhereACornerOfAPieceIsWithinRoundingOfThePlane) {
     // the second plane is the float next to it, so that the exact part beyond it may be narrower than these.
     Rng rng(11);
     size_t narrow = 0;
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 1500; ++i) {
         const float ax = rng.next(1.0f, 2.0f), ay = rng.next(1.0f, 2.0f), bend = rng.next(-1e-6f, 1e-6f);
         const Triangle triangle{{-ax, -ay, rng.next()}, {ax + bend, ay, rng.next()}, {-ax, ay, 0.0f}};
         const BspPlane first = BspPlane::across(1, 0.0f);
@@ -273,7 +273,7 @@ TEST(BspPiece, NoSideIsLostWhereACornerOfAPieceIsWithinRoundingOfThePlane) {
             }
         }
     }
-    EXPECT_GT(narrow, 1000u);
+    EXPECT_GT(narrow, 500u);
 }
 
 TEST(ConvexCell, ACubeCutDiagonallyAsComputedByHand) {

@@ -55,10 +55,10 @@ TEST(Ropes, PointToTheLowestNodeThatContainsTheFace) {
 
 TEST(Ropes, FindTheSameHitsAsBruteForceThroughWallsEdgesAndCornersOfCells) {
     Task task;
-    for (const Mesh& mesh : {lattice_mesh(30, 2), lattice_mesh(300, 3)}) {
+    for (const Mesh& mesh : {lattice_mesh(30, 2), lattice_mesh(120, 3)}) {
         const Structure reference = run("none", mesh).structure;
-        std::vector<Ray> rays = lattice_rays(3000, 4);
-        for (const Ray& ray : rays_for(mesh, 1000, 5)) rays.push_back(ray);
+        std::vector<Ray> rays = lattice_rays(1500, 4);
+        for (const Ray& ray : rays_for(mesh, 300, 5)) rays.push_back(ray);
         for (const char* recipe : {"kd-sah(traversal-cost=0) > ropes", "kd-median(leaf-size=1) > ropes"}) {
             const Structure structure = run(recipe, mesh).structure;
             for (const Mode mode : {Mode::Exact, Mode::Fast}) {
