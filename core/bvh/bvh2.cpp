@@ -9,12 +9,14 @@ namespace {
 /// Visits leaves front to back as long as visit_leaf(leaf) is true.
 template <Mode mode, class Counter, class VisitLeaf>
 void traverse(const Bvh2& bvh, ClosestHit<mode>& ray, Counter& count, VisitLeaf&& visit_leaf) {
-    const std::vector<Bvh2::Node>& nodes = bvh.nodes;
+    const std::span<const Bvh2::Node> nodes = bvh.nodes;
     if (nodes.empty()) return;
     ray.enter_scene(nodes[0].lower, nodes[0].upper);
     visit_front_to_back(
         nodes, ray, count, [](const Bvh2::Node& node) { return node.is_leaf(); },
-        [&](uint32_t node, double& entry) { return ray.meets(nodes[node].lower, nodes[node].upper, entry); },
+        [&ray, nodes](uint32_t node, double& entry) {
+            return ray.meets(nodes[node].lower, nodes[node].upper, entry);
+        },
         [&](uint32_t leaf) { return visit_leaf(nodes[leaf]); });
 }
 

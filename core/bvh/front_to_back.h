@@ -11,7 +11,7 @@ namespace boxwood {
 /// is node 0, at most Bvh2::kMaxDepth levels lie below it. Lecture (Kerbl), "BVH traversal": the closer child
 /// first, the other one on a stack, to be visited if its entry is then still before the nearest hit.
 template <class Node, Mode mode, class Counter, class IsLeaf, class Meets, class VisitLeaf>
-void visit_front_to_back(const std::vector<Node>& nodes, const ClosestHit<mode>& ray, Counter& count,
+void visit_front_to_back(std::span<const Node> nodes, const ClosestHit<mode>& ray, Counter& count,
                          const IsLeaf& is_leaf, const Meets& meets, VisitLeaf&& visit_leaf) {
     struct StackEntry {
         uint32_t node;

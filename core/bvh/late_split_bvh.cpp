@@ -17,7 +17,7 @@ bool visit_below(const LateSplitBvh& bvh, uint32_t original_leaf, ClosestHit<mod
     };
     StackEntry stack[Bvh2::kMaxDepth];
     uint32_t size = 0;
-    const std::vector<Bvh2::Node>& nodes = bvh.nodes;
+    const std::span<const Bvh2::Node> nodes = bvh.nodes;
     const bool held_one = nodes[original_leaf].first < bvh.single_end;
     uint32_t node = original_leaf;
     // Lower bound of the parameters in all the cells on the stack. A wall that the ray runs in (NaN) is none:
@@ -60,7 +60,7 @@ bool visit_below(const LateSplitBvh& bvh, uint32_t original_leaf, ClosestHit<mod
 /// Visits leaves, original and deep ones, as long as visit_leaf(leaf) is true.
 template <Mode mode, class Counter, class VisitLeaf>
 void traverse(const LateSplitBvh& bvh, ClosestHit<mode>& ray, Counter& count, const VisitLeaf& visit_leaf) {
-    const std::vector<Bvh2::Node>& nodes = bvh.nodes;
+    const std::span<const Bvh2::Node> nodes = bvh.nodes;
     if (nodes.empty()) return;
     ray.enter_scene(nodes[0].lower, nodes[0].upper);
     visit_front_to_back(

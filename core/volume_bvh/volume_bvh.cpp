@@ -22,7 +22,7 @@ void traverse(const VolumeBvh<Volume>& bvh, ClosestHit<mode>& ray, Counter& coun
         return entry <= far && ray.is_open(entry);
     };
     visit_front_to_back(
-        bvh.nodes, ray, count, [](const Node& node) { return node.is_leaf(); }, meets,
+        std::span<const Node>(bvh.nodes), ray, count, [](const Node& node) { return node.is_leaf(); }, meets,
         [&](uint32_t leaf) { return visit_leaf(bvh.nodes[leaf]); });
 }
 
