@@ -82,8 +82,8 @@ int missed_tangents(int case_count) {
 }
 
 TEST(Sphere, TangentsMeetItAndWithHalfTheBoundSomeDoNot) {
-    EXPECT_EQ(missed_tangents<VolumeBounds>(20000), 0);
-    EXPECT_GT(missed_tangents<HalfUnit>(20000), 0);
+    EXPECT_EQ(missed_tangents<VolumeBounds>(3000), 0);
+    EXPECT_GT(missed_tangents<HalfUnit>(3000), 0);
 }
 
 /// Points of spheres on rays whose parameter is outside the interval: the ray ends at an exact point of the
@@ -112,7 +112,7 @@ int points_outside_the_interval(int case_count) {
 }
 
 TEST(Sphere, ThePointsOfTheRayInsideAreInItsInterval) {
-    EXPECT_EQ(points_outside_the_interval<VolumeBounds>(20000), 0);
+    EXPECT_EQ(points_outside_the_interval<VolumeBounds>(3000), 0);
 }
 
 TEST(Sphere, LengthsAreRoundedUpAndWithHalfTheBoundSomeAreNot) {
@@ -127,8 +127,8 @@ TEST(Sphere, LengthsAreRoundedUpAndWithHalfTheBoundSomeAreNot) {
         }
         return count;
     };
-    EXPECT_EQ(too_short(VolumeBounds{}, 40000), 0);
-    EXPECT_GT(too_short(HalfPad{}, 40000), 0);
+    EXPECT_EQ(too_short(VolumeBounds{}, 5000), 0);
+    EXPECT_GT(too_short(HalfPad{}, 5000), 0);
 }
 
 TEST(Sphere, HitsAndMissesAsComputedByHand) {
@@ -192,9 +192,9 @@ int slabs_without_the_point(int case_count, float at) {
 }
 
 TEST(OrientedBox, ThePointsOfTheRayInsideAreInItsIntervalAndWithAQuarterOfTheBoundSomeAreNot) {
-    for (const float at : {0.0f, 1.0f, 1e4f}) EXPECT_EQ(slabs_without_the_point<VolumeBounds>(10000, at), 0);
-    EXPECT_EQ(slabs_without_the_point<VolumeBounds>(10000, 3.9f), 0);
-    EXPECT_GT(slabs_without_the_point<QuarterUnit>(10000, 3.9f), 0);
+    for (const float at : {0.0f, 1.0f, 1e4f}) EXPECT_EQ(slabs_without_the_point<VolumeBounds>(1500, at), 0);
+    EXPECT_EQ(slabs_without_the_point<VolumeBounds>(1500, 3.9f), 0);
+    EXPECT_GT(slabs_without_the_point<QuarterUnit>(3000, 3.9f), 0);
 }
 
 TEST(OrientedBox, HitsAndMissesAsComputedByHand) {
@@ -232,8 +232,8 @@ TEST(OrientedBox, ContainsItsVerticesAndWithHalfTheBoundSomeStickOut) {
         }
         return count;
     };
-    EXPECT_EQ(outside(VolumeBounds{}, 40000), 0);
-    EXPECT_GT(outside(HalfUnit{}, 40000), 0);
+    EXPECT_EQ(outside(VolumeBounds{}, 5000), 0);
+    EXPECT_GT(outside(HalfUnit{}, 5000), 0);
 }
 
 bool contains(const Sphere& sphere, const Exact& p) {
