@@ -16,7 +16,7 @@
 #include "core/octree/quadtree.h"
 #include "core/refs/early_split_clipping.h"
 #include "core/refs/edge_volume.h"
-#include "core/refs/refinement.h"
+#include "core/refs/refine.h"
 #include "core/refs/whole_boxes.h"
 #include "core/volume_bvh/bounding_volumes.h"
 

@@ -1,4 +1,4 @@
-#include "core/refs/refinement.h"
+#include "core/refs/refine.h"
 
 #include <gtest/gtest.h>
 
@@ -109,7 +109,7 @@ TEST(Refinement, EachBoxContainsItsExactPieceWhereSumsRound) {
 }
 
 TEST(Refinement, BoundOfCornersHoldsAndHalfOfItDoesNot) {
-    // 2u M, as derived in refinement.cpp: (14 a + b + c) / 16 on one axis, a just above 1, b and c so small
+    // 2u M, as derived in refine.cpp: (14 a + b + c) / 16 on one axis, a just above 1, b and c so small
     // that both sums round.
     Rng rng(5);
     double largest_ratio = 0.0;

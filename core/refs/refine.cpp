@@ -1,4 +1,4 @@
-#include "core/refs/refinement.h"
+#include "core/refs/refine.h"
 
 #include <cmath>
 
