@@ -27,8 +27,10 @@ void append_stages(std::string& text, const char* title, std::span<const Catalog
 
 std::string recipe_help() {
     std::string text =
-        "A recipe names the way from triangles to a structure: \"references > builder\", references being\n"
-        "\"whole\" where they are left out; for example \"evh(t=14) > bvh-binned-sah(max-leaf-size=4)\".\n"
+        "A recipe names the way from triangles to a structure: \"references > builder > transforms\", "
+        "references\n"
+        "being \"whole\" where they are left out; for example \"evh(t=14) > "
+        "bvh-binned-sah(max-leaf-size=4)\".\n"
         "Each stage is shown with its defaults; `boxwood list` says what the parameters mean.\n";
     append_stages(text, "references", reference_catalog());
     append_stages(text, "builders", builder_catalog());
