@@ -63,6 +63,18 @@ TEST(Grid, VisitsExactlyTheCellsThatTheRayMeets) {
     }
 }
 
+TEST(Grid, VisitsACellThatIsLeftAsTheNextOneIsEntered) {
+    // The cell before x = 1 is left at most at 1 + 6u, u = 2^-53, where the one beyond y = 1 is entered.
+    Mesh mesh = two_corners(Vec3(0.0f));
+    for (Vec3& p : mesh.positions) p *= 2.0f;
+    const Grid grid = build({.x = 4, .y = 4, .z = 4}, mesh);
+    Ray ray;
+    ray.origin = {0.0f, -6.0f * 0x1p-53f, 0.5f};
+    ray.direction = {1.0f, 1.0f, 0.0f};
+    ASSERT_EQ(RaySlabs(ray).far(0, 1.0), RaySlabs(ray).near(1, 1.0));
+    expect_visits_of_boxes_met<Mode::Exact>(grid, mesh, {ray}, 1);
+}
+
 TEST(Grid, TestsNoPrimitiveTwice) {
     const Mesh mesh = random_triangles(60, 0.9f, 1);
     const Grid grid = build({.x = 16, .y = 16, .z = 16}, mesh);

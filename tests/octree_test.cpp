@@ -143,15 +143,15 @@ TEST(Octree, TestsNoPrimitiveTwice) {
 }
 
 TEST(Octree, LeavesHaveExactlyTheTrianglesThatTouchThem) {
-    Mesh mesh = random_triangles(30, 0.4f, 5);
+    Mesh mesh = random_triangles(16, 0.4f, 5);
     Rng rng(6);
     for (Vec3& p : mesh.positions)
         for (int axis = 0; axis < 3; ++axis)
             if (rng.next() < 0.7f) p[axis] = static_cast<float>(rng.next_index(5)) - 2.0f;
-    const Mesh slanted = random_triangles(30, 0.5f, 7);
+    const Mesh slanted = random_triangles(16, 0.5f, 7);
     for (const Mesh& each : {mesh, slanted}) {
-        expect_exact_references(build(Octree{.max_depth = 3, .max_leaf_size = 3}, each).list_nodes(), each);
-        expect_exact_references(build(Quadtree{.max_depth = 4, .max_leaf_size = 3}, each).list_nodes(), each);
+        expect_exact_references(build(Octree{.max_depth = 3, .max_leaf_size = 2}, each).list_nodes(), each);
+        expect_exact_references(build(Quadtree{.max_depth = 4, .max_leaf_size = 2}, each).list_nodes(), each);
     }
 }
 

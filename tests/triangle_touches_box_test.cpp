@@ -63,7 +63,7 @@ TEST(TriangleTouchesBox, IsExactOnRandomTriangles) {
 
 TEST(TriangleTouchesBox, IsExactWhereCornersAndEdgesLieInPlanes) {
     Rng rng(2);
-    for (int i = 0; i < 6000; ++i) {
+    for (int i = 0; i < 3000; ++i) {
         const Vec3 a = lattice_point(rng), b = lattice_point(rng), c = lattice_point(rng);
         Box box;
         box.extend(lattice_point(rng));
@@ -75,7 +75,7 @@ TEST(TriangleTouchesBox, IsExactWhereCornersAndEdgesLieInPlanes) {
 TEST(TriangleTouchesBox, IsExactWhereEdgesAndPlanesAlmostTouchTheBox) {
     Rng rng(3);
     int touching = 0;
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 2000; ++i) {
         const Box box = random_box(rng, -1, 1);
         Vec3 corner;
         for (int axis = 0; axis < 3; ++axis)
@@ -87,8 +87,8 @@ TEST(TriangleTouchesBox, IsExactWhereEdgesAndPlanesAlmostTouchTheBox) {
         if (i % 4 < 2) triangle.c = corner + (corner - 0.5f * (triangle.a + random_point(rng, -1, 1)));
         touching += expect_exact(triangle, box) ? 1 : 0;
     }
-    EXPECT_GT(touching, 300);
-    EXPECT_LT(touching, 2700);
+    EXPECT_GT(touching, 200);
+    EXPECT_LT(touching, 1800);
 }
 
 TEST(TriangleTouchesBox, IsExactOnSlivers) {
@@ -99,6 +99,21 @@ TEST(TriangleTouchesBox, IsExactOnSlivers) {
         if (i % 2 == 0) c.x = std::nextafter(c.x, 9.0f);
         expect_exact({a, b, c}, random_box(rng, -1, 1));
     }
+}
+
+TEST(TriangleTouchesBox, IsExactWhereTheNormalsSignIsLostInRounding) {
+    // Two corners and the box are close to the origin, the third corner is far: its edges are parallel in
+    // double, but near the short edge the triangle is as wide as the box.
+    Rng rng(8);
+    int touching = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const float size = std::ldexp(1.0f, -48 - i % 8);
+        Triangle triangle = random_triangle(rng, -size, size);
+        triangle.b = random_point(rng, -1, 1);
+        touching += expect_exact(triangle, random_box(rng, -size, size)) ? 1 : 0;
+    }
+    EXPECT_GT(touching, 200);
+    EXPECT_LT(touching, 1800);
 }
 
 TEST(TriangleTouchesBox, IsExactFarFromTheOriginAndForAllMagnitudes) {
