@@ -229,5 +229,11 @@ TEST(StageCache, NeverHoldsMoreThanItsBytes) {
     EXPECT_EQ(cache.run_count(), 3u);
 }
 
+TEST(Pipeline, WarnsOfABuildThatTakesLong) {
+    EXPECT_EQ(long_build_warning(parse_recipe("bsp"), 1000000), "takes about 55 s for 1000000 triangles");
+    EXPECT_EQ(long_build_warning(parse_recipe("bsp"), 10000), "");
+    EXPECT_EQ(long_build_warning(parse_recipe("bvh-binned-sah"), 100000000), "");
+}
+
 }  // namespace
 }  // namespace boxwood

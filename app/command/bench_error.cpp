@@ -19,7 +19,7 @@ constexpr int kScaleExponents[] = {-30, -20, -15, -10, -5, 0, 5, 10, 15, 20, 30}
 constexpr int kOffsetExponents[] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 /// Every exact builder over whole boxes and over edge volume references; brute force would take hours.
-std::vector<Recipe> exact_recipes() {
+std::vector<Recipe> compared_recipes() {
     std::vector<Recipe> recipes;
     for (const char* references : {"", "evh(t=14) > "})
         for (const CatalogEntry& builder : builder_catalog())
@@ -105,7 +105,7 @@ ExitCode run_bench_error(Arguments arguments) {
         "changed between rounds. bench/plots.py draws the JSON.\n\n" +
         recipe_help());
     if (!options.parse(arguments)) return ExitCode::Done;
-    settings.recipes = texts.empty() ? exact_recipes() : parse_recipes(texts);
+    settings.recipes = texts.empty() ? compared_recipes() : parse_recipes(texts);
     settings.ray_count = static_cast<size_t>(ray_count);
     settings.sample_count = static_cast<size_t>(sample_count);
     settings.least_rounds = static_cast<uint64_t>(rounds);

@@ -60,6 +60,8 @@ std::shared_ptr<const Scene> open_surface(const std::string& spec) {
 
 Built build_shown(const Recipe& recipe, std::shared_ptr<const Scene> scene, StageCache& cache,
                   bool with_levels) {
+    const std::string warning = long_build_warning(recipe, scene->mesh.triangle_count());
+    if (!warning.empty()) std::fprintf(stderr, "boxwood: %s %s\n", print(recipe).c_str(), warning.c_str());
     Task task;
     const Progress progress(scene->title + ": building " + print(recipe), task);
     return *run_recipe(recipe, std::move(scene), cache, task, with_levels);

@@ -108,7 +108,8 @@ BuildResult BuildJob::run(const BuildRequest& request, Task& task) {
         result.scene = scene_;
         if (!request.structure || task.stopped()) return result;
         const Recipe recipe = parse_recipe(request.recipe);
-        say("building " + print(recipe));
+        const std::string warning = long_build_warning(recipe, scene_->mesh.triangle_count());
+        say("building " + print(recipe) + (warning.empty() ? "" : ", which " + warning));
         std::optional<Built> built = run_recipe(recipe, scene_, *cache_, task, /*with_levels=*/true);
         if (!built) return result;
         result.values = std::make_shared<BoxValues>(make_box_values(built->levels->list));

@@ -15,7 +15,7 @@ void find_smallest(const NodeList& list, std::span<const uint32_t> nodes, const 
     for (const uint32_t node : nodes) {
         const Box& box = list.nodes[node].bounds;
         if (!holds(box, point)) continue;
-        if (best == kNoIndex || box.half_area() < list.nodes[best].bounds.half_area()) best = node;
+        if (best == kNoIndex || list.half_area(node) < list.half_area(best)) best = node;
     }
 }
 

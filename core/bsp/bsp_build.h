@@ -37,6 +37,10 @@ struct BspSah {
         v.on_int("budget", budget, 1, 64, "references in leaves at most, for each triangle");
         v.on_int("seed", seed, 0, 1000000, "of the random candidates");
     }
+    /// Measured: 55 microseconds for each triangle and six candidates.
+    double estimate_seconds(size_t triangle_count) const {
+        return 55e-6 / 6.0 * candidates * static_cast<double>(triangle_count);
+    }
     BspTree build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const;
 };
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <utility>
@@ -252,6 +253,16 @@ std::optional<Built> run_recipe(const Recipe& recipe, std::shared_ptr<const Scen
     }
     return Built{std::move(scene),  recipe,   made->references, structure,
                  std::move(levels), made->ms, last->ms,         std::move(skipped)};
+}
+
+std::string long_build_warning(const Recipe& recipe, size_t triangle_count) {
+    constexpr double kFewSeconds = 5.0;
+    double seconds = recipe.builder.method().estimate_seconds(triangle_count);
+    for (const Stage& transform : recipe.transforms)
+        seconds += transform.method().estimate_seconds(triangle_count);
+    if (seconds <= kFewSeconds) return {};
+    return "takes about " + std::to_string(std::lround(seconds)) + " s for " +
+           std::to_string(triangle_count) + " triangles";
 }
 
 }  // namespace boxwood

@@ -47,6 +47,12 @@ concept TakesInputOfFrame = Transform<T> && requires(const T& c) {
     { c.input_frame() } -> std::same_as<int>;
 };
 
+/// A builder that may take so long that a user should know beforehand: seconds of one processor core, about.
+template <class T>
+concept EstimatesTime = requires(const T& c, size_t triangle_count) {
+    { c.estimate_seconds(triangle_count) } -> std::same_as<double>;
+};
+
 /// One stage of a recipe with its parameters, of any kind. Of the three functions that run it exactly one
 /// applies: the catalog's table says which.
 class StageMethod {
@@ -60,6 +66,8 @@ public:
                             Task& task) const = 0;
     /// The frame that a transform's input is built on (see TakesInputOfFrame); nothing: the one asked for.
     virtual std::optional<int> input_frame() const = 0;
+    /// See EstimatesTime; 0: not worth a word.
+    virtual double estimate_seconds(size_t triangle_count) const = 0;
 };
 
 /// Gives a plain struct of parameters the interface above.
@@ -85,6 +93,10 @@ public:
             return Structure(method_.apply(mesh, refs, *concrete, task));
         }
         return not_this_kind<Structure>();
+    }
+    double estimate_seconds([[maybe_unused]] size_t triangle_count) const override {
+        if constexpr (EstimatesTime<T>) return method_.estimate_seconds(triangle_count);
+        return 0.0;
     }
     std::optional<int> input_frame() const override {
         if constexpr (TakesInputOfFrame<T>) return method_.input_frame();
