@@ -193,6 +193,7 @@ TEST_F(Selecting, VisitsOfThePictureAreTheSumOfItsRays) {
 TEST_F(Selecting, VerifyIsOfTheViewItWasAskedFor) {
     viewer_.state.side = SidePanel::Verify;
     viewer_.state.traced = TracedView::Beside;
+    viewer_.state.show_times = false;  // nothing to time
     viewer_.state.verify_rays = 200;
     viewer_.wait();
     ASSERT_TRUE(viewer_.check());

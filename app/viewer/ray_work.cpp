@@ -18,7 +18,7 @@ void RayWork::update(ViewerState& state, const std::shared_ptr<const Built>& bui
     update_ray(state, built);
     update_visits(state, built, camera);
     update_check(state, built, camera);
-    if (is_check_due_ && may_check) start_check();
+    if (is_check_due_ && may_check) start_check(state.show_times);
 }
 
 void RayWork::update_ray(const ViewerState& state, const std::shared_ptr<const Built>& built) {
@@ -96,14 +96,14 @@ void RayWork::update_check(ViewerState& state, const std::shared_ptr<const Built
     if (!is_check_due_) check_ = last_check_;
 }
 
-void RayWork::start_check() {
+void RayWork::start_check(bool is_timed) {
     is_check_due_ = false;
-    check_work_.start([key = *check_of_](Task& task) {
+    check_work_.start([key = *check_of_, is_timed](Task& task) {
         const bench::PictureCheckSettings settings{.camera = key.camera,
                                                    .width = key.width,
                                                    .height = key.height,
                                                    .sample_count = static_cast<uint64_t>(key.rays),
-                                                   .seconds = kTimingSeconds};
+                                                   .seconds = is_timed ? kTimingSeconds : 0.0};
         return bench::check_picture(key.built->scene->mesh, key.built->structure, settings, task);
     });
 }

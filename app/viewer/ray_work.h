@@ -50,7 +50,7 @@ private:
     void update_visits(const ViewerState& state, const std::shared_ptr<const Built>& built,
                        const Camera& camera);
     void update_check(ViewerState& state, const std::shared_ptr<const Built>& built, const Camera& camera);
-    void start_check();
+    void start_check(bool is_timed);
 
     CastResults cast_;
     std::optional<VisitsKey> hit_of_, visits_of_;  ///< what was asked for last; none: nothing
