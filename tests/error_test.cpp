@@ -81,7 +81,8 @@ TEST(Error, WrongAnswersAreCountedByKind) {
     EXPECT_EQ(errors_of({next, 0}, Contestant::Exact).wrong_t, 1u);
     EXPECT_EQ(errors_of({next, 0}, Contestant::Fast).wrong(), 0u);
     EXPECT_EQ(errors_of({next, 0}, Contestant::Fast).t_error, 1.0);
-    EXPECT_EQ(errors_of({next, 0}, Contestant::Fast).beyond_bound, 0u);
+    EXPECT_EQ(errors_of({3.0f, 0}, Contestant::Fast).beyond_bound, 0u);
+    EXPECT_EQ(errors_of({next, 0}, Contestant::Fast).beyond_bound, 1u);
     EXPECT_EQ(errors_of({3.001f, 0}, Contestant::Fast).beyond_bound, 1u);
 }
 
@@ -146,8 +147,9 @@ TEST(Error, FastModeStaysWithinItsBoundAtEveryScale) {
             SampleJudge(mesh, rays, 1).judge(cast(mesh, rays, Mode::Fast), Contestant::Fast);
         EXPECT_EQ(errors.beyond_bound, 0u) << exponent;
         EXPECT_EQ(errors.wrong_plain, 0u) << exponent;
-        EXPECT_GT(errors.t_error, 0.5) << exponent;
-        EXPECT_LT(errors.t_bound_p99, 1e4) << exponent;
+        EXPECT_GT(errors.t_error, 0.4) << exponent;
+        EXPECT_LT(errors.t_error_p99, 0.6) << exponent;
+        EXPECT_LT(errors.t_bound_p99, 1.1) << exponent;
     }
 }
 
