@@ -17,11 +17,13 @@ uniform float wire_opacity;
 
 const vec3 kLight = vec3(0.30, 0.52, 0.80);  // in eye space, of length 1
 
+const float kSharedStrength = 0.6;  // often all triangles are shared: their own colours show through
+
 vec3 base_color() {
     if (triangle.z == 1u) return red_color;
     if (triangle.z == 2u) return selection_color;
-    if (triangle.z == 3u) return shared_color;
-    return linear_from_srgb(unpackUnorm4x8(triangle.x).rgb);
+    vec3 own = linear_from_srgb(unpackUnorm4x8(triangle.x).rgb);
+    return triangle.z == 3u ? mix(own, shared_color, kSharedStrength) : own;
 }
 
 // The unit vector of octahedral coordinates: Cigolle et al., "A Survey of Efficient Representations for
