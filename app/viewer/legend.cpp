@@ -201,7 +201,7 @@ void wrong_legend(const Context& context) {
     ImGui::Begin("wrong legend", nullptr, kFloating);
     ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
     swatch(context, kWrongColor,
-           grouped(mode.wrong()) + " wrong of " + grouped(check->checked) + " rays checked, " +
+           grouped(mode.wrong()) + " wrong of " + grouped(check->checked) + "\nrays checked, " +
                (context.state.mode == Mode::Exact ? "exact" : "fast") + " mode");
     ImGui::PopFont();
     ImGui::End();
