@@ -75,13 +75,14 @@ std::vector<Recipe> parse_recipes(const std::vector<std::string>& texts) {
 
 std::vector<Recipe> exact_recipes() {
     std::vector<Recipe> recipes;
-    for (const CatalogEntry& builder : builder_catalog()) {
-        if (!builder.exact) continue;
-        recipes.push_back(parse_recipe(builder.id));
-        for (const CatalogEntry& transform : transform_catalog()) {
-            if (transform.exact && std::string(transform.input) == builder.output)
-                recipes.push_back(parse_recipe(std::string(builder.id) + " > " + transform.id));
-        }
+    for (const CatalogEntry& builder : builder_catalog())
+        if (builder.exact) recipes.push_back(parse_recipe(builder.id));
+    for (const CatalogEntry& transform : transform_catalog()) {
+        const CatalogEntry* input = nullptr;
+        for (const CatalogEntry& builder : builder_catalog())
+            if (builder.exact && std::string(builder.output) == transform.input) input = &builder;
+        if (transform.exact && input != nullptr)
+            recipes.push_back(parse_recipe(std::string(input->id) + " > " + transform.id));
     }
     for (const CatalogEntry& references : reference_catalog()) {
         const Recipe recipe = parse_recipe(std::string(references.id) + " > bvh-binned-sah");

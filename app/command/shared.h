@@ -34,8 +34,8 @@ Built build_shown(const Recipe& recipe, std::shared_ptr<const Scene> scene, Stag
 /// All recipes, each parsed before any of them is run.
 std::vector<Recipe> parse_recipes(const std::vector<std::string>& texts);
 
-/// Every exact row of the catalog: the builders over whole boxes, each with each transform that takes what it
-/// makes, and every other reference stage with one builder.
+/// Every exact row of the catalog: the builders over whole boxes, each transform on the last of those that it
+/// takes, and every other reference stage with one builder.
 std::vector<Recipe> exact_recipes();
 
 /// "boxwood: MESSAGE" on standard error.
