@@ -82,28 +82,31 @@ bool passes_through(const Ray& ray, const Vec3& p) {
            (to_p.x * d.y - to_p.y * d.x).sign() == 0;
 }
 
-/// Whether two triangles that the ray hits are hit at the same t, where that can be seen without computing t:
-/// both lie in one axis plane (floors, walls), or they are copies of each other (a model that stands twice
-/// in a scene), or the ray meets the edge or the vertex that they share.
-bool is_plainly_a_tie(const Ray& ray, const Triangle& s, const Triangle& t) {
+/// Corners that two triangles have in common.
+struct SharedCorners {
+    const Vec3* corners[3];
+    int count = 0;
+
+    SharedCorners(const Triangle& s, const Triangle& t) {
+        for (const Vec3* corner : {&s.a, &s.b, &s.c})
+            if (*corner == t.a || *corner == t.b || *corner == t.c) corners[count++] = corner;
+    }
+    /// Whether the ray's line meets the one edge or vertex that is shared.
+    bool are_met(const Ray& ray) const {
+        if (count == 1) return passes_through(ray, *corners[0]);
+        return count == 2 && edge_sign(ray, *corners[0], *corners[1]) == 0;
+    }
+};
+
+/// Whether all corners of both triangles lie in one axis plane.
+bool share_axis_plane(const Triangle& s, const Triangle& t) {
     for (int axis = 0; axis < 3; ++axis) {
         const float plane = s.a[axis];
         if (s.b[axis] == plane && s.c[axis] == plane && t.a[axis] == plane && t.b[axis] == plane &&
             t.c[axis] == plane)
             return true;
     }
-    const Vec3* shared[3];
-    int shared_count = 0;
-    for (const Vec3* corner : {&s.a, &s.b, &s.c})
-        if (*corner == t.a || *corner == t.b || *corner == t.c) shared[shared_count++] = corner;
-    switch (shared_count) {
-        case 1:
-            return passes_through(ray, *shared[0]);
-        case 2:
-            return edge_sign(ray, *shared[0], *shared[1]) == 0;
-        default:
-            return shared_count == 3;
-    }
+    return false;
 }
 
 }  // namespace
@@ -156,14 +159,17 @@ bool ClosestHit<Mode::Exact>::keep_if_nearer(const Triangle& triangle, uint32_t 
     bool is_filtered = true;
     if (prim_ != kNoIndex && !is_surely_nearer) {
         if (prim == prim_) return true;  // a second reference to the best hit
-        if (is_plainly_a_tie(ray_, triangle, best_)) {
+        const SharedCorners shared(triangle, best_);
+        if (shared.count == 3 || share_axis_plane(triangle, best_)) {
+            // Copies (a model that stands twice in a scene), floors, walls: at the best hit's t, which is in
+            // range, without any arithmetic.
             if (prim < prim_) {
                 prim_ = prim;
                 best_ = triangle;
             }
-            return true;  // at the best hit's t, which is in range
+            return true;
         }
-        const int order = ExactT(ray_, triangle).compare(ExactT(ray_, best_));
+        const int order = shared.are_met(ray_) ? 0 : ExactT(ray_, triangle).compare(ExactT(ray_, best_));
         if (order > 0 || (order == 0 && prim > prim_)) return false;
         is_filtered = false;
     }
