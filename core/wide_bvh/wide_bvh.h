@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/structure/structure.h"
+
+namespace boxwood {
+
+/// Four triangles, structure of arrays: coordinate `axis` of corner `corner` of triangle i is
+/// corners[corner][axis][i]. Lanes without a triangle repeat the last one, whose primitive they carry too: a
+/// second test of it changes nothing.
+struct alignas(32) TrianglePack {
+    static constexpr uint32_t kSize = 4;
+    float corners[3][3][kSize];
+    uint32_t prims[kSize];
+};
+static_assert(sizeof(TrianglePack) == 160);
+
+/// What a child of a wide node is, in 32 bits: an inner node, or a leaf of 1 to 31 consecutive packs, or
+/// nothing. Larger leaves of the input become several children with the same box.
+struct WideChild {
+    static constexpr uint32_t kLeafBit = 1u << 31, kFirstBits = 26, kMostPacks = 31;
+    uint32_t bits = kNoIndex;
+
+    static WideChild inner(uint32_t node) { return {node}; }
+    static WideChild leaf(uint32_t first_pack, uint32_t pack_count) {
+        return {kLeafBit | (pack_count - 1) << kFirstBits | first_pack};
+    }
+    bool is_empty() const { return bits == kNoIndex; }
+    bool is_leaf() const { return (bits & kLeafBit) != 0 && !is_empty(); }
+    uint32_t node() const { return bits; }
+    uint32_t first_pack() const { return bits & ((1u << kFirstBits) - 1); }
+    uint32_t pack_count() const { return ((bits >> kFirstBits) & 31) + 1; }
+    bool operator==(const WideChild&) const = default;
+};
+
+/// Bounding volume hierarchy whose nodes have up to `Width` children, their boxes as a structure of arrays.
+/// Dammertz, Hanika, Keller, "Shallow Bounding Volume Hierarchies for Fast SIMD Ray Tracing of Incoherent
+/// Rays", EGSR 2008 (QBVH); eight children as in Wald, Benthin, Boulos, "Getting Rid of Packets", RT 2008.
+/// Nodes in depth-first order, the root first; an empty mesh has no node. Packs in the order of the leaves,
+/// these in the order of the nodes and, in a node, of the children.
+template <uint32_t Width>
+struct WideBvh {
+    static_assert(Width == 4 || Width == 8);
+    static constexpr const char* kFamily = Width == 4 ? "4-wide BVH" : "8-wide BVH";
+    static constexpr uint32_t kWidth = Width;
+    static constexpr uint32_t kMaxDepth = 64;  ///< levels of nodes below the root at most
+
+    /// Children stand in the first lanes; an empty lane has a box that no ray meets: lower = infinity, upper
+    /// = -infinity, its child is empty.
+    struct alignas(64) Node {
+        float lower[3][Width], upper[3][Width];
+        WideChild children[Width];
+        /// For each ray octant (bit axis set: the direction's sign bit is), the lanes of the children front
+        /// to back, log2(Width) bits each, the first in the lowest bits. All Width lanes occur.
+        std::array<uint8_t, Width == 4 ? 8 : 24> order;
+        uint32_t first_leaf;  ///< number of its first leaf child among all leaves, in their order
+
+        /// Lane at `rank` (0: nearest) of the order for an octant.
+        uint32_t lane_at(uint32_t octant, uint32_t rank) const {
+            if constexpr (Width == 4) {
+                return (order[octant] >> (2 * rank)) & 3u;
+            } else {
+                const uint32_t bits = order[3 * octant] | static_cast<uint32_t>(order[3 * octant + 1]) << 8 |
+                                      static_cast<uint32_t>(order[3 * octant + 2]) << 16;
+                return (bits >> (3 * rank)) & 7u;
+            }
+        }
+    };
+    static_assert(sizeof(Node) == (Width == 4 ? 128 : 256));
+
+    std::vector<Node> nodes;
+    std::vector<TrianglePack> packs;
+    uint32_t leaf_count = 0;
+
+    template <Mode mode, class Counter>
+    void closest_hit(const Mesh& mesh, ClosestHit<mode>& closest, Counter& count) const;
+    template <Mode mode, class Counter>
+    bool any_hit(const Mesh& mesh, ClosestHit<mode>& ray, Counter& count) const;
+    /// Nodes first, as they stand; then the leaves in their order: leaf i is node nodes.size() + i.
+    NodeList list_nodes() const;
+    size_t byte_count() const { return nodes.size() * sizeof(Node) + packs.size() * sizeof(TrianglePack); }
+};
+
+}  // namespace boxwood
