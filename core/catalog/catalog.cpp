@@ -19,6 +19,7 @@
 #include "core/refs/refine.h"
 #include "core/refs/whole_boxes.h"
 #include "core/volume_bvh/bounding_volumes.h"
+#include "core/wide_bvh/collapse.h"
 
 namespace boxwood {
 namespace {
@@ -55,6 +56,10 @@ constexpr CatalogEntry kTransforms[] = {
     row<Spheres>("spheres", "bounding spheres", "Kerbl, lecture, \"Bounding volumes\""),
     row<OrientedBoxes>("oriented-boxes", "oriented boxes",
                        "Kerbl, lecture, \"Bounding volumes\"; Gottschalk et al. 1996"),
+    row<Collapse<4>>("wide4", "BVH with four children",
+                     "Dammertz, Hanika and Keller 2008; Ylitie, Karras and Laine 2017, 3.1"),
+    row<Collapse<8>>("wide8", "BVH with eight children",
+                     "Wald, Benthin and Boulos 2008; Ylitie, Karras and Laine 2017, 3.1"),
     row<Refit>("refit", "refit to another frame", "Wald, Boulos and Shirley 2007, ACM TOG 26(1)"),
 };
 

@@ -14,6 +14,17 @@ struct alignas(32) TrianglePack {
     static constexpr uint32_t kSize = 4;
     float corners[3][3][kSize];
     uint32_t prims[kSize];
+
+    Triangle triangle(uint32_t lane) const { return {corner(0, lane), corner(1, lane), corner(2, lane)}; }
+    Vec3 corner(uint32_t i, uint32_t lane) const {
+        return {corners[i][0][lane], corners[i][1][lane], corners[i][2][lane]};
+    }
+    /// Triangles that are no repetition; they stand in the first lanes.
+    uint32_t count() const {
+        uint32_t n = 1;
+        while (n < kSize && prims[n] != prims[n - 1]) ++n;
+        return n;
+    }
 };
 static_assert(sizeof(TrianglePack) == 160);
 
@@ -57,6 +68,16 @@ struct WideBvh {
         std::array<uint8_t, Width == 4 ? 8 : 24> order;
         uint32_t first_leaf;  ///< number of its first leaf child among all leaves, in their order
 
+        Box bounds(uint32_t lane) const {
+            return {{lower[0][lane], lower[1][lane], lower[2][lane]},
+                    {upper[0][lane], upper[1][lane], upper[2][lane]}};
+        }
+        /// Around all its children.
+        Box bounds() const {
+            Box box;
+            for (uint32_t lane = 0; lane < Width; ++lane) box.extend(bounds(lane));
+            return box;
+        }
         /// Lane at `rank` (0: nearest) of the order for an octant.
         uint32_t lane_at(uint32_t octant, uint32_t rank) const {
             if constexpr (Width == 4) {
