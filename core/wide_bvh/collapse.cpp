@@ -1,9 +1,10 @@
 #include "core/wide_bvh/collapse.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/structure/sah.h"
-#include "core/wide_bvh/wide_output.h"
+#include "core/wide_bvh/least_cost_plan.h"
 
 namespace boxwood {
 
@@ -11,11 +12,11 @@ namespace {
 
 double half_area(const Bvh2::Node& node) { return Box{node.lower, node.upper}.half_area(); }
 
-/// Opens the child with the largest area.
+/// Opens the child with the largest area, unless what is below it fits into one pack.
 template <uint32_t Width>
 class GreedyPlan final : public WidePlan<Width> {
 public:
-    explicit GreedyPlan(const Bvh2& bvh) : bvh_(bvh) {}
+    GreedyPlan(const Bvh2& bvh, const PrimCounts& counts) : bvh_(bvh), counts_(counts) {}
 
     WideParts<Width> children_of(uint32_t node) const override {
         WideParts<Width> children;
@@ -35,19 +36,28 @@ public:
     }
 
 private:
-    WidePart part(uint32_t node) const { return {node, bvh_.nodes[node].is_leaf()}; }
+    WidePart part(uint32_t node) const {
+        const bool fits = counts_.are_few(node) && pack_count(counts_.of(node)) == 1;
+        return {node, fits || bvh_.nodes[node].is_leaf()};
+    }
     double area(WidePart part) const { return half_area(bvh_.nodes[part.node]); }
 
     const Bvh2& bvh_;
+    const PrimCounts& counts_;
 };
+
+constexpr uint32_t kMostPrims = WideChild::kMostPacks * TrianglePack::kSize;  ///< of one leaf
+
+bool has_large_leaf(const Bvh2& bvh) {
+    return std::ranges::any_of(bvh.nodes, [](const Bvh2::Node& node) { return node.count > kMostPrims; });
+}
 
 /// The same with leaves of at most WideChild::kMostPacks packs: halves of larger ones, with the same box.
 Bvh2 with_small_leaves(const Bvh2& bvh) {
-    constexpr uint32_t kMost = WideChild::kMostPacks * TrianglePack::kSize;
     Bvh2 result = bvh;
     for (size_t i = 0; i < result.nodes.size(); ++i) {
         const Bvh2::Node leaf = result.nodes[i];
-        if (leaf.count <= kMost) continue;
+        if (leaf.count <= kMostPrims) continue;
         const uint32_t left = leaf.count / 2;
         result.nodes[i].first = static_cast<uint32_t>(result.nodes.size());
         result.nodes[i].count = 0;
@@ -79,8 +89,13 @@ template <uint32_t Width>
 WideBvh<Width> Collapse<Width>::apply(const Mesh& mesh, std::span<const PrimRef>, const Bvh2& input,
                                       Task& task) const {
     if (input.nodes.empty()) return {};
-    const Bvh2 bvh = with_small_leaves(input);
-    return make_wide<Width>(mesh, bvh, GreedyPlan<Width>(bvh), task);
+    std::optional<Bvh2> halved;
+    if (has_large_leaf(input)) halved = with_small_leaves(input);
+    const Bvh2& bvh = halved ? *halved : input;
+    const PrimCounts counts(mesh, bvh, static_cast<uint32_t>(leaf_size), task);
+    if (way == Greedy) return make_wide<Width>(mesh, bvh, GreedyPlan<Width>(bvh, counts), task);
+    const WideCosts costs{static_cast<double>(node_cost), static_cast<double>(pack_cost)};
+    return make_wide<Width>(mesh, bvh, LeastCostPlan<Width>(bvh, counts, costs, task), task);
 }
 
 template struct Collapse<4>;

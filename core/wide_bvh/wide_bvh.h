@@ -28,6 +28,11 @@ struct alignas(32) TrianglePack {
 };
 static_assert(sizeof(TrianglePack) == 160);
 
+/// Packs that hold so many triangles.
+constexpr uint32_t pack_count(uint32_t triangle_count) {
+    return (triangle_count + TrianglePack::kSize - 1) / TrianglePack::kSize;
+}
+
 /// What a child of a wide node is, in 32 bits: an inner node, or a leaf of 1 to 31 consecutive packs, or
 /// nothing. Larger leaves of the input become several children with the same box.
 struct WideChild {

@@ -1,0 +1,111 @@
+#include "core/wide_bvh/least_cost_plan.h"
+
+#include <limits>
+
+#include "core/base/parallel.h"
+#include "core/structure/sah.h"
+
+namespace boxwood {
+
+namespace {
+
+constexpr uint32_t kParallelDepth = 9;  ///< nodes above it are solved in parallel
+
+double half_area(const Bvh2::Node& node) { return Box{node.lower, node.upper}.half_area(); }
+
+}  // namespace
+
+template <uint32_t Width>
+LeastCostPlan<Width>::LeastCostPlan(const Bvh2& bvh, const PrimCounts& counts, const WideCosts& costs,
+                                    const Task& task)
+    : bvh_(bvh),
+      counts_(counts),
+      costs_(costs),
+      task_(task),
+      root_area_(half_area(bvh.nodes[0])),
+      choices_(bvh.nodes.size()) {
+    solve(0, 0);
+}
+
+template <uint32_t Width>
+typename LeastCostPlan<Width>::Costs LeastCostPlan<Width>::solve(uint32_t node, uint32_t depth) {
+    const Bvh2::Node& source = bvh_.nodes[node];
+    Costs left{}, right{};
+    if (source.is_leaf()) {
+        left.fill(leaf_cost(node, source.count));
+        return left;
+    }
+    if (task_.stopped()) return left;
+    const auto solve_left = [&] { left = solve(source.first, depth + 1); };
+    const auto solve_right = [&] { right = solve(source.first + 1, depth + 1); };
+    if (depth < kParallelDepth) {
+        parallel_invoke(solve_left, solve_right);
+    } else {
+        solve_left();
+        solve_right();
+    }
+    return choose(node, left, right);
+}
+
+template <uint32_t Width>
+typename LeastCostPlan<Width>::Costs LeastCostPlan<Width>::choose(uint32_t node, const Costs& left,
+                                                                  const Costs& right) {
+    Costs best;  // D(n, j) at [j - 1] first
+    Choice& choice = choices_[node];
+    for (uint32_t j = 2; j <= Width; ++j) {
+        best[j - 1] = std::numeric_limits<double>::infinity();
+        for (uint32_t k = 1; k < j; ++k) {
+            const double cost = left[k - 1] + right[j - k - 1];
+            if (!(cost < best[j - 1])) continue;
+            best[j - 1] = cost;
+            choice[j - 1] = static_cast<uint8_t>(k);
+        }
+    }
+    const double as_node = probability(node) * costs_.node + best[Width - 1];
+    const double as_leaf =
+        counts_.are_few(node) ? leaf_cost(node, counts_.of(node)) : std::numeric_limits<double>::infinity();
+    const bool is_leaf = as_leaf <= as_node;
+    choice[0] = is_leaf ? 1 : 0;
+    best[0] = is_leaf ? as_leaf : as_node;
+    for (uint32_t i = 2; i <= Width; ++i) {
+        // Where it costs the same: one leaf rather than many, but many nodes on one level rather than two.
+        const bool is_better = best[i - 1] < best[i - 2] || (best[i - 1] == best[i - 2] && !is_leaf);
+        if (is_better) continue;
+        best[i - 1] = best[i - 2];
+        choice[i - 1] = 0;
+    }
+    return best;
+}
+
+template <uint32_t Width>
+double LeastCostPlan<Width>::leaf_cost(uint32_t node, uint32_t prim_count) const {
+    return probability(node) * pack_count(prim_count) * costs_.pack;
+}
+
+template <uint32_t Width>
+double LeastCostPlan<Width>::probability(uint32_t node) const {
+    return hit_probability(half_area(bvh_.nodes[node]), root_area_);
+}
+
+template <uint32_t Width>
+WideParts<Width> LeastCostPlan<Width>::children_of(uint32_t node) const {
+    WideParts<Width> children;
+    add_children(node, Width, children);
+    return children;
+}
+
+template <uint32_t Width>
+void LeastCostPlan<Width>::add_children(uint32_t node, uint32_t most, WideParts<Width>& children) const {
+    if (bvh_.nodes[node].is_leaf()) return children.add({node, /*is_leaf=*/true});
+    const Choice& choice = choices_[node];
+    while (most > 1 && choice[most - 1] == 0) --most;
+    if (most == 1) return children.add({node, choice[0] != 0});
+    const uint32_t left = choice[most - 1];
+    add_children(bvh_.nodes[node].first, left, children);
+    add_children(bvh_.nodes[node].first + 1, most - left, children);
+}
+
+template class LeastCostPlan<4>;
+template class LeastCostPlan<8>;
+
+}  // namespace boxwood
