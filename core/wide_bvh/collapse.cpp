@@ -93,9 +93,9 @@ WideBvh<Width> Collapse<Width>::apply(const Mesh& mesh, std::span<const PrimRef>
     if (has_large_leaf(input)) halved = with_small_leaves(input);
     const Bvh2& bvh = halved ? *halved : input;
     const PrimCounts counts(mesh, bvh, static_cast<uint32_t>(leaf_size), task);
-    if (way == Greedy) return make_wide<Width>(mesh, bvh, GreedyPlan<Width>(bvh, counts), task);
+    if (way == Greedy) return make_wide<Width>(mesh, bvh, counts, GreedyPlan<Width>(bvh, counts), task);
     const WideCosts costs{static_cast<double>(node_cost), static_cast<double>(pack_cost)};
-    return make_wide<Width>(mesh, bvh, LeastCostPlan<Width>(bvh, counts, costs, task), task);
+    return make_wide<Width>(mesh, bvh, counts, LeastCostPlan<Width>(bvh, counts, costs, task), task);
 }
 
 template struct Collapse<4>;

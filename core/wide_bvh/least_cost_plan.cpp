@@ -1,5 +1,6 @@
 #include "core/wide_bvh/least_cost_plan.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/base/parallel.h"
@@ -32,7 +33,8 @@ typename LeastCostPlan<Width>::Costs LeastCostPlan<Width>::solve(uint32_t node, 
     const Bvh2::Node& source = bvh_.nodes[node];
     Costs left{}, right{};
     if (source.is_leaf()) {
-        left.fill(leaf_cost(node, source.count));
+        left.least.fill(leaf_cost(node, source.count));
+        left.most = 1;
         return left;
     }
     if (task_.stopped()) return left;
@@ -50,31 +52,38 @@ typename LeastCostPlan<Width>::Costs LeastCostPlan<Width>::solve(uint32_t node, 
 template <uint32_t Width>
 typename LeastCostPlan<Width>::Costs LeastCostPlan<Width>::choose(uint32_t node, const Costs& left,
                                                                   const Costs& right) {
-    Costs best;  // D(n, j) at [j - 1] first
+    // D(n, j) at [j - 1] first; where j is more than both subtrees have a use for, that of the largest such.
+    std::array<double, Width> best;
     Choice& choice = choices_[node];
-    for (uint32_t j = 2; j <= Width; ++j) {
+    const uint32_t useful = std::min(left.most + right.most, Width);
+    for (uint32_t j = 2; j <= useful; ++j) {
         best[j - 1] = std::numeric_limits<double>::infinity();
-        for (uint32_t k = 1; k < j; ++k) {
-            const double cost = left[k - 1] + right[j - k - 1];
+        const uint32_t first = j > right.most ? j - right.most : 1, last = std::min(left.most, j - 1);
+        for (uint32_t k = first; k <= last; ++k) {
+            const double cost = left.least[k - 1] + right.least[j - k - 1];
             if (!(cost < best[j - 1])) continue;
             best[j - 1] = cost;
             choice[j - 1] = static_cast<uint8_t>(k);
         }
     }
-    const double as_node = probability(node) * costs_.node + best[Width - 1];
+    const double as_node = probability(node) * costs_.node + best[useful - 1];
     const double as_leaf =
         counts_.are_few(node) ? leaf_cost(node, counts_.of(node)) : std::numeric_limits<double>::infinity();
     const bool is_leaf = as_leaf <= as_node;
     choice[0] = is_leaf ? 1 : 0;
     best[0] = is_leaf ? as_leaf : as_node;
-    for (uint32_t i = 2; i <= Width; ++i) {
+    uint32_t most = 1;
+    for (uint32_t i = 2; i <= useful; ++i) {
         // Where it costs the same: one leaf rather than many, but many nodes on one level rather than two.
-        const bool is_better = best[i - 1] < best[i - 2] || (best[i - 1] == best[i - 2] && !is_leaf);
-        if (is_better) continue;
-        best[i - 1] = best[i - 2];
-        choice[i - 1] = 0;
+        if (best[i - 1] < best[i - 2] || (best[i - 1] == best[i - 2] && !is_leaf)) {
+            most = i;
+        } else {
+            best[i - 1] = best[i - 2];
+            choice[i - 1] = 0;
+        }
     }
-    return best;
+    std::fill(best.begin() + most, best.end(), best[most - 1]);
+    return {best, most};
 }
 
 template <uint32_t Width>

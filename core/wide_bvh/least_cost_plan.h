@@ -23,8 +23,10 @@ public:
     WideParts<Width> children_of(uint32_t node) const override;
 
 private:
-    /// C(n, i) at [i - 1]; the last one is that of the root's children.
-    using Costs = std::array<double, Width>;
+    struct Costs {
+        std::array<double, Width> least;  ///< C(n, i) at [i - 1], up to i = Width for the root's children
+        uint32_t most;                    ///< more children than so many cost no less
+    };
     /// What the minima are taken at. At [0] whether one child is a leaf; at [i - 1] the children that the
     /// left subtree has of i, 0 where i - 1 children cost no more.
     using Choice = std::array<uint8_t, Width>;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/bvh/bvh2.h"
+#include "core/wide_bvh/prim_counts.h"
 #include "core/wide_bvh/wide_bvh.h"
 
 namespace boxwood {
@@ -31,11 +32,10 @@ public:
     virtual WideParts<Width> children_of(uint32_t node) const = 0;
 };
 
-/// The primitives below a node, in ascending order, each once.
-void gather_prims(const Bvh2& bvh, uint32_t node, std::vector<uint32_t>& prims);
-
-/// Puts a wide hierarchy together. An empty one after a stop.
+/// Puts a wide hierarchy together, in parallel. `counts` of the binary one; leaves of the plan that are no
+/// leaves of it hold few. An empty one after a stop.
 template <uint32_t Width>
-WideBvh<Width> make_wide(const Mesh& mesh, const Bvh2& bvh, const WidePlan<Width>& plan, const Task& task);
+WideBvh<Width> make_wide(const Mesh& mesh, const Bvh2& bvh, const PrimCounts& counts,
+                         const WidePlan<Width>& plan, const Task& task);
 
 }  // namespace boxwood
