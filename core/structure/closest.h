@@ -49,6 +49,8 @@ public:
     }
     /// Whether a box with this entry can hold a hit that is as near as the best one.
     bool is_open(double entry) const { return entry <= limit_; }
+    /// Upper bound of the entries that are open.
+    double limit() const { return limit_; }
 
     /// Tests a triangle and keeps it if it is hit in range, and nearer than the best one or as near with a
     /// lower index.
@@ -129,6 +131,8 @@ public:
         return slabs_.meets(lower, upper, limit_, entry);
     }
     bool is_open(double entry) const { return entry <= limit_; }
+    /// Upper bound of the entries that are open.
+    double limit() const { return limit_; }
 
     template <class Counter>
     void test(const Triangle& triangle, uint32_t prim, Counter& count) {

@@ -30,6 +30,14 @@ concept AccelerationStructure = std::movable<S> &&
     { s.byte_count() } -> std::same_as<size_t>;
 };
 
+/// A structure that answers whole batches of rays by itself, as Structure::closest_hits and any_hits say.
+template <class S>
+concept TracesBatches = requires(const S& s, const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                                 std::span<uint8_t> occluded, Mode mode, const Task& task) {
+    s.closest_hits(mesh, rays, hits, mode, task);
+    s.any_hits(mesh, rays, occluded, mode, task);
+};
+
 /// A built structure of any kind, immutable; copies share it. Called for batches of rays, never for one in a
 /// loop.
 class Structure {
@@ -122,6 +130,9 @@ private:
         }
         void closest_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
                           std::span<Count> counts, Mode mode, const Task& task) const override {
+            if constexpr (TracesBatches<S>) {
+                if (counts.empty()) return structure.closest_hits(mesh, rays, hits, mode, task);
+            }
             if (mode == Mode::Exact) {
                 closest_hits_in<Mode::Exact>(mesh, rays, hits, counts, task);
             } else {
@@ -130,7 +141,9 @@ private:
         }
         void any_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<uint8_t> occluded, Mode mode,
                       const Task& task) const override {
-            if (mode == Mode::Exact) {
+            if constexpr (TracesBatches<S>) {
+                structure.any_hits(mesh, rays, occluded, mode, task);
+            } else if (mode == Mode::Exact) {
                 any_hits_in<Mode::Exact>(mesh, rays, occluded, task);
             } else {
                 any_hits_in<Mode::Fast>(mesh, rays, occluded, task);

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "core/base/large_array.h"
 #include "core/structure/structure.h"
 
 namespace boxwood {
@@ -96,14 +97,19 @@ struct WideBvh {
     };
     static_assert(sizeof(Node) == (Width == 4 ? 128 : 256));
 
-    std::vector<Node> nodes;
-    std::vector<TrianglePack> packs;
+    LargeArray<Node> nodes;
+    LargeArray<TrianglePack> packs;
     uint32_t leaf_count = 0;
 
     template <Mode mode, class Counter>
     void closest_hit(const Mesh& mesh, ClosestHit<mode>& closest, Counter& count) const;
     template <Mode mode, class Counter>
     bool any_hit(const Mesh& mesh, ClosestHit<mode>& ray, Counter& count) const;
+    /// For whole batches, the same answers by SIMD; see wide_tracer.h.
+    void closest_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits, Mode mode,
+                      const Task& task) const;
+    void any_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<uint8_t> occluded, Mode mode,
+                  const Task& task) const;
     /// Nodes first, as they stand; then the leaves in their order: leaf i is node nodes.size() + i.
     NodeList list_nodes() const;
     size_t byte_count() const { return nodes.size() * sizeof(Node) + packs.size() * sizeof(TrianglePack); }

@@ -1,0 +1,273 @@
+// Float SIMD tests of boxes and triangles, once for each instruction set; bounds in float_bounds.h.
+#if defined(BOXWOOD_FLOAT_TESTS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_FLOAT_TESTS_INL_H
+#undef BOXWOOD_FLOAT_TESTS_INL_H
+#else
+#define BOXWOOD_FLOAT_TESTS_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+
+#include "core/structure/closest.h"
+#include "core/wide_bvh/float_bounds.h"
+#include "core/wide_bvh/wide_bvh.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET != HWY_SCALAR
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D4 = hn::FixedTag<float, 4>;
+using V4 = hn::Vec<D4>;
+
+template <class D>
+HWY_INLINE uint32_t bits_of(D d, hn::Mask<D> mask) {
+    uint8_t bytes[8];
+    hn::StoreMaskBits(d, mask, bytes);
+    return bytes[0];
+}
+
+/// A ray prepared for tests in float.
+template <Mode mode>
+struct FloatRay {
+    static constexpr float kScale = mode == Mode::Fast ? 2.0f : 1.0f;
+    static constexpr float kMargin = static_cast<float>(5.5 * 0x1p-24) * FloatBounds::kSecondOrder;
+
+    HWY_ALIGN float inverse[4], near_offset[4], far_offset[4];
+    uint32_t octant;  ///< bit axis set: the direction's sign bit is
+    bool is_usable;   ///< the ray is valid, and the bounds hold
+    float t_min, t_max;
+    uint32_t x, y, z;  ///< axes; z is the one with the largest |d|
+    V4 origin_x, origin_y, origin_z, direction_x, direction_y, direction_z, shear_x, shear_y;
+    V4 edge_bound;  ///< of the edge functions of any triangle, to be multiplied with X
+
+    HWY_INLINE FloatRay(const Ray& ray, const FloatScene& scene) : t_min(ray.t_min), t_max(ray.t_max) {
+        const D4 d;
+        const hn::RebindToUnsigned<D4> du;
+        HWY_ALIGN static constexpr uint32_t kThree[4] = {~0u, ~0u, ~0u, 0};
+        const V4 three = hn::BitCast(d, hn::Load(du, kThree));
+        const V4 o = hn::And(hn::LoadU(d, &ray.origin.x), three);
+        const V4 direction = hn::And(hn::LoadU(d, &ray.direction.x), three);
+        const V4 size_of_d = hn::Abs(direction);
+        const V4 largest_d = hn::MaxOfLanes(d, size_of_d);
+        const V4 reach = hn::Mul(hn::MaxOfLanes(d, hn::Max(hn::Abs(hn::Sub(hn::Load(d, scene.lower), o)),
+                                                           hn::Abs(hn::Sub(hn::Load(d, scene.upper), o)))),
+                                 hn::Set(d, 1.0f + 4.0f * FloatBounds::kUnit));
+        const V4 places = hn::Add(hn::Abs(o), hn::Load(d, scene.largest));
+        const V4 least = hn::Mul(largest_d, hn::Set(d, FloatBounds::kUnit));
+        const V4 moved_d =
+            hn::IfThenElse(hn::Lt(size_of_d, least), hn::CopySign(least, direction), direction);
+        const V4 r = hn::Div(hn::Set(d, 1.0f), moved_d);
+        const V4 moved =
+            hn::Mul(reach, hn::Set(d, FloatBounds::kMoved + (mode == Mode::Fast ? kMargin : 0.0f)));
+        const V4 pad = hn::Mul(hn::Abs(r), hn::MulAdd(hn::Set(d, FloatBounds::kSlab), places, moved));
+        const V4 c = hn::Neg(hn::Mul(o, r));
+        hn::Store(r, d, inverse);
+        hn::Store(hn::Sub(c, pad), d, near_offset);
+        hn::Store(hn::Add(c, pad), d, far_offset);
+        octant = bits_of(d, hn::MaskFromVec(hn::BitCast(
+                                d, hn::BroadcastSignBit(hn::BitCast(hn::RebindToSigned<D4>(), direction))))) &
+                 7u;
+        const V4 most = hn::Set(d, FloatBounds::kLargest);
+        // Comparisons with NaN are false.
+        is_usable = hn::AllTrue(d, hn::And(hn::And(hn::Le(places, most), hn::Le(size_of_d, most)),
+                                           hn::Le(reach, most))) &&
+                    hn::GetLane(reach) >= FloatBounds::kSmallestReach &&
+                    hn::GetLane(largest_d) >= FloatBounds::kSmallestDirection && t_min >= 0.0f &&
+                    t_min <= t_max && t_min < std::numeric_limits<float>::infinity();
+        const float dx = std::abs(ray.direction.x), dy = std::abs(ray.direction.y),
+                    dz = std::abs(ray.direction.z);
+        z = dx >= dy ? (dx >= dz ? 0 : 2) : (dy >= dz ? 1 : 2);
+        x = z == 2 ? 0 : z + 1;
+        y = x == 2 ? 0 : x + 1;
+        const float* const origins = &ray.origin.x;
+        const float* const directions = &ray.direction.x;
+        origin_x = hn::Set(d, origins[x]);
+        origin_y = hn::Set(d, origins[y]);
+        origin_z = hn::Set(d, origins[z]);
+        direction_x = hn::Set(d, directions[x]);
+        direction_y = hn::Set(d, directions[y]);
+        direction_z = hn::Set(d, directions[z]);
+        const V4 shears = hn::Div(direction, direction_z);
+        HWY_ALIGN float shear[4];
+        hn::Store(shears, d, shear);
+        shear_x = hn::Set(d, shear[x]);
+        shear_y = hn::Set(d, shear[y]);
+        edge_bound = hn::Mul(reach, hn::Set(d, kScale * FloatBounds::kEdge));
+    }
+};
+
+/// Which lanes of a pack may be hit, and which surely are, at t in [lower, upper].
+struct PackHits {
+    uint32_t open, sure;
+    HWY_ALIGN float lower[4], upper[4];
+};
+
+/// Vertices relative to the origin, sheared so that the ray is the z axis, and their edge functions.
+struct Sheared {
+    V4 ax, ay, az, bx, by, bz, cx, cy, cz, u, v, w;
+    V4 size;  ///< X: the largest |x| or |y|
+
+    template <Mode mode>
+    HWY_INLINE Sheared(const TrianglePack& pack, const FloatRay<mode>& ray) {
+        const D4 d;
+        az = hn::Sub(hn::Load(d, pack.corners[0][ray.z]), ray.origin_z);
+        bz = hn::Sub(hn::Load(d, pack.corners[1][ray.z]), ray.origin_z);
+        cz = hn::Sub(hn::Load(d, pack.corners[2][ray.z]), ray.origin_z);
+        ax = hn::NegMulAdd(ray.shear_x, az, hn::Sub(hn::Load(d, pack.corners[0][ray.x]), ray.origin_x));
+        bx = hn::NegMulAdd(ray.shear_x, bz, hn::Sub(hn::Load(d, pack.corners[1][ray.x]), ray.origin_x));
+        cx = hn::NegMulAdd(ray.shear_x, cz, hn::Sub(hn::Load(d, pack.corners[2][ray.x]), ray.origin_x));
+        ay = hn::NegMulAdd(ray.shear_y, az, hn::Sub(hn::Load(d, pack.corners[0][ray.y]), ray.origin_y));
+        by = hn::NegMulAdd(ray.shear_y, bz, hn::Sub(hn::Load(d, pack.corners[1][ray.y]), ray.origin_y));
+        cy = hn::NegMulAdd(ray.shear_y, cz, hn::Sub(hn::Load(d, pack.corners[2][ray.y]), ray.origin_y));
+        u = hn::MulSub(cx, by, hn::Mul(cy, bx));
+        v = hn::MulSub(ax, cy, hn::Mul(ay, cx));
+        w = hn::MulSub(bx, ay, hn::Mul(by, ax));
+        size = hn::Max(hn::Max(hn::Max(hn::Abs(ax), hn::Abs(ay)), hn::Max(hn::Abs(bx), hn::Abs(by))),
+                       hn::Max(hn::Abs(cx), hn::Abs(cy)));
+    }
+    HWY_INLINE hn::Mask<D4> is_missed(V4 bound) const {
+        return hn::And(hn::Lt(hn::Min(u, hn::Min(v, w)), hn::Neg(bound)),
+                       hn::Gt(hn::Max(u, hn::Max(v, w)), bound));
+    }
+    HWY_INLINE hn::Mask<D4> is_hit(V4 bound) const {
+        return hn::Or(hn::Gt(hn::Min(u, hn::Min(v, w)), bound),
+                      hn::Lt(hn::Max(u, hn::Max(v, w)), hn::Neg(bound)));
+    }
+};
+
+/// An interval of t for every lane, where `is_steep`.
+struct PlaneHits {
+    V4 lower, upper;
+    hn::Mask<D4> is_steep;
+
+    template <Mode mode>
+    HWY_INLINE PlaneHits(const TrianglePack& pack, const FloatRay<mode>& ray, const Sheared& s, V4 bound,
+                         V4 reach) {
+        const D4 d;
+        const V4 ox = hn::Load(d, pack.corners[0][ray.x]), oy = hn::Load(d, pack.corners[0][ray.y]),
+                 oz = hn::Load(d, pack.corners[0][ray.z]);
+        const V4 e1x = hn::Sub(hn::Load(d, pack.corners[1][ray.x]), ox),
+                 e1y = hn::Sub(hn::Load(d, pack.corners[1][ray.y]), oy),
+                 e1z = hn::Sub(hn::Load(d, pack.corners[1][ray.z]), oz),
+                 e2x = hn::Sub(hn::Load(d, pack.corners[2][ray.x]), ox),
+                 e2y = hn::Sub(hn::Load(d, pack.corners[2][ray.y]), oy),
+                 e2z = hn::Sub(hn::Load(d, pack.corners[2][ray.z]), oz);
+        const V4 nx1 = hn::Mul(e1y, e2z), nx2 = hn::Mul(e1z, e2y), ny1 = hn::Mul(e1z, e2x),
+                 ny2 = hn::Mul(e1x, e2z), nz1 = hn::Mul(e1x, e2y), nz2 = hn::Mul(e1y, e2x);
+        const V4 nx = hn::Sub(nx1, nx2), ny = hn::Sub(ny1, ny2), nz = hn::Sub(nz1, nz2);
+        const V4 sum_x = hn::Add(hn::Abs(nx1), hn::Abs(nx2)), sum_y = hn::Add(hn::Abs(ny1), hn::Abs(ny2)),
+                 sum_z = hn::Add(hn::Abs(nz1), hn::Abs(nz2));
+        const V4 ax = hn::Sub(ox, ray.origin_x), ay = hn::Sub(oy, ray.origin_y);
+        const V4 dx = ray.direction_x, dy = ray.direction_y, dz = ray.direction_z;
+        const V4 numerator = hn::MulAdd(ax, nx, hn::MulAdd(ay, ny, hn::Mul(s.az, nz)));
+        const V4 denominator = hn::MulAdd(dx, nx, hn::MulAdd(dy, ny, hn::Mul(dz, nz)));
+        const V4 terms = hn::Set(d, FloatBounds::kTerms), underflow = hn::Set(d, FloatBounds::kUnderflow);
+        const V4 numerator_error = hn::MulAdd(
+            terms,
+            hn::MulAdd(hn::Abs(ax), sum_x, hn::MulAdd(hn::Abs(ay), sum_y, hn::Mul(hn::Abs(s.az), sum_z))),
+            underflow);
+        const V4 denominator_error = hn::MulAdd(
+            terms,
+            hn::MulAdd(hn::Abs(dx), sum_x, hn::MulAdd(hn::Abs(dy), sum_y, hn::Mul(hn::Abs(dz), sum_z))),
+            underflow);
+        is_steep = hn::Gt(hn::Abs(denominator), hn::Add(denominator_error, denominator_error));
+        const V4 inverse = hn::Div(hn::Set(d, 1.0f), denominator);
+        const V4 t = hn::Mul(numerator, inverse);
+        const V4 size_of_t = hn::Abs(t);
+        V4 error = hn::MulAdd(hn::Set(d, 4.0f * FloatBounds::kUnit), size_of_t,
+                              hn::Mul(hn::Mul(hn::Set(d, 2.01f), hn::Abs(inverse)),
+                                      hn::MulAdd(size_of_t, denominator_error, numerator_error)));
+        if constexpr (mode == Mode::Fast) {
+            const V4 sum = hn::Abs(hn::Add(s.u, hn::Add(s.v, s.w)));
+            const V4 length = hn::Max(hn::Abs(hn::Sub(s.bz, s.az)), hn::Abs(hn::Sub(s.cz, s.az)));
+            is_steep = hn::And(is_steep, hn::Gt(sum, hn::Mul(bound, hn::Set(d, 6.01f))));
+            const V4 edges =
+                hn::Div(hn::Mul(hn::Mul(hn::Set(d, FloatBounds::kFastEdges), bound), length), sum);
+            error = hn::Add(error, hn::Div(hn::MulAdd(hn::Set(d, FloatBounds::kFastZ), reach, edges),
+                                           hn::Abs(ray.direction_z)));
+        }
+        lower = hn::Sub(t, error);
+        upper = hn::Add(t, error);
+    }
+};
+
+/// False if no triangle of the pack can be hit at `limit` or before.
+template <Mode mode>
+HWY_INLINE bool test_pack(const TrianglePack& pack, const FloatRay<mode>& ray, float limit, PackHits& hits) {
+    const D4 d;
+    const V4 underflow = hn::Set(d, FloatBounds::kUnderflow);
+    const Sheared s(pack, ray);
+    const auto missed = s.is_missed(hn::MulAdd(ray.edge_bound, s.size, underflow));
+    if (HWY_LIKELY(hn::AllTrue(d, missed))) return false;
+    // Again with the bound for these triangles' own distance instead of the scene's.
+    const V4 reach = hn::Max(hn::Max(hn::Max(hn::Abs(s.az), hn::Abs(s.bz)), hn::Abs(s.cz)), s.size);
+    const V4 bound = hn::MulAdd(hn::Mul(hn::Set(d, FloatRay<mode>::kScale * FloatBounds::kEdge), s.size),
+                                reach, underflow);
+    const PlaneHits plane(pack, ray, s, bound, reach);
+    const auto sure = hn::And(s.is_hit(bound), plane.is_steep);
+    const auto closed = hn::Or(s.is_missed(bound), hn::And(sure, hn::Gt(plane.lower, hn::Set(d, limit))));
+    hits.open = 15u & ~bits_of(d, closed);
+    hits.sure = bits_of(d, sure);
+    hn::Store(plane.lower, d, hits.lower);
+    hn::Store(plane.upper, d, hits.upper);
+    return hits.open != 0;
+}
+
+/// A FloatRay as vectors over the lanes of a node.
+template <uint32_t Width>
+struct BoxRay {
+    using D = hn::CappedTag<float, Width>;
+    using V = hn::Vec<D>;
+    V inverse_x, inverse_y, inverse_z, near_x, near_y, near_z, far_x, far_y, far_z, t_min;
+    /// Of the planes in a node, in floats.
+    size_t plane_near_x, plane_near_y, plane_near_z, plane_far_x, plane_far_y, plane_far_z;
+
+    template <Mode mode>
+    HWY_INLINE explicit BoxRay(const FloatRay<mode>& ray) {
+        const D d;
+        inverse_x = hn::Set(d, ray.inverse[0]);
+        inverse_y = hn::Set(d, ray.inverse[1]);
+        inverse_z = hn::Set(d, ray.inverse[2]);
+        near_x = hn::Set(d, ray.near_offset[0]);
+        near_y = hn::Set(d, ray.near_offset[1]);
+        near_z = hn::Set(d, ray.near_offset[2]);
+        far_x = hn::Set(d, ray.far_offset[0]);
+        far_y = hn::Set(d, ray.far_offset[1]);
+        far_z = hn::Set(d, ray.far_offset[2]);
+        t_min = hn::Set(d, ray.t_min);
+        constexpr size_t kUpper = size_t{3} * Width;
+        plane_near_x = (ray.octant & 1) != 0 ? kUpper : 0;
+        plane_near_y = ((ray.octant & 2) != 0 ? kUpper : 0) + Width;
+        plane_near_z = ((ray.octant & 4) != 0 ? kUpper : 0) + size_t{2} * Width;
+        plane_far_x = kUpper - plane_near_x;
+        plane_far_y = kUpper + size_t{2} * Width - plane_near_y;
+        plane_far_z = kUpper + size_t{4} * Width - plane_near_z;
+    }
+    HWY_INLINE V entry(const float* planes) const {
+        const D d;
+        return hn::Max(hn::Max(hn::MulAdd(hn::Load(d, planes + plane_near_x), inverse_x, near_x),
+                               hn::MulAdd(hn::Load(d, planes + plane_near_y), inverse_y, near_y)),
+                       hn::Max(hn::MulAdd(hn::Load(d, planes + plane_near_z), inverse_z, near_z), t_min));
+    }
+    HWY_INLINE V exit(const float* planes, float limit) const {
+        const D d;
+        return hn::Min(
+            hn::Min(hn::MulAdd(hn::Load(d, planes + plane_far_x), inverse_x, far_x),
+                    hn::MulAdd(hn::Load(d, planes + plane_far_y), inverse_y, far_y)),
+            hn::Min(hn::MulAdd(hn::Load(d, planes + plane_far_z), inverse_z, far_z), hn::Set(d, limit)));
+    }
+};
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+
+#endif
