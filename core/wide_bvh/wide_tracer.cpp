@@ -205,6 +205,33 @@ HWY_INLINE WideChild push_children(const typename WideBvh<Width>::Node& node, co
     }
 }
 
+/// The same in any order, without parameters: any hit will do.
+template <uint32_t Width>
+HWY_INLINE WideChild push_unordered(const typename WideBvh<Width>::Node& node, const BoxRay<Width>& ray,
+                                    float limit, uint32_t* stack, uint32_t& count) {
+    const hn::CappedTag<float, Width> d;
+    const float* const planes = node.lower[0];
+    if constexpr (hn::MaxLanes(d) == Width) {
+        const hn::RebindToUnsigned<decltype(d)> du;
+        const auto is_met = hn::Le(ray.entry(planes), ray.exit(planes, limit));
+        const uint32_t met = bits_of(d, is_met);
+        if (met == 0) return {};
+        if ((met & (met - 1)) == 0) return node.children[std::countr_zero(met)];
+        const auto children = hn::Load(du, &node.children[0].bits);
+        hn::StoreU(hn::Compress(children, hn::RebindMask(du, is_met)), du, stack + count);
+        count += static_cast<uint32_t>(std::popcount(met)) - 1;
+        return {stack[count]};
+    } else {
+        uint32_t met = 0;
+        for (size_t first = 0; first < Width; first += hn::Lanes(d))
+            met |= bits_of(d, hn::Le(ray.entry(planes + first), ray.exit(planes + first, limit))) << first;
+        if (met == 0) return {};
+        for (; (met & (met - 1)) != 0; met &= met - 1)
+            stack[count++] = node.children[std::countr_zero(met)].bits;
+        return node.children[std::countr_zero(met)];
+    }
+}
+
 template <Mode mode, uint32_t Width>
 HWY_INLINE void find_closest(const WideBvh<Width>& bvh, const FloatRay<mode>& ray, Search<mode>& search) {
     const BoxRay<Width> box_ray(ray);
@@ -244,14 +271,13 @@ HWY_INLINE bool find_any(const WideBvh<Width>& bvh, const FloatRay<mode>& ray, O
     const BoxRay<Width> box_ray(ray);
     const auto* const nodes = bvh.nodes.data();
     const TrianglePack* const packs = bvh.packs.data();
-    const uint32_t octant = ray.octant;
     const float limit = ray.t_max;
-    Stack<Width> stack;
+    uint32_t stack[Stack<Width>::kSize];
     uint32_t count = 0;
     WideChild child = WideChild::inner(0);
     while (true) {
         while (!child.is_leaf()) {
-            child = push_children<Width>(nodes[child.node()], box_ray, octant, limit, stack, count);
+            child = push_unordered<Width>(nodes[child.node()], box_ray, limit, stack, count);
             if (child.is_empty()) break;
         }
         if (!child.is_empty()) {
@@ -264,7 +290,7 @@ HWY_INLINE bool find_any(const WideBvh<Width>& bvh, const FloatRay<mode>& ray, O
             }
         }
         if (count == 0) return false;
-        child = {stack.children[--count]};
+        child = {stack[--count]};
     }
 }
 
@@ -285,7 +311,8 @@ constexpr size_t kStopInterval = 64;  ///< rays from one look at task.stop to th
 template <Mode mode, uint32_t Width>
 HWY_NOINLINE void closest_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, std::span<const Ray> rays,
                                   std::span<Hit> hits, const Task& task) {
-    if (bvh.nodes.empty()) return std::ranges::fill(hits, Hit{});
+    std::ranges::fill(hits, Hit{});
+    if (bvh.nodes.empty()) return;
     const FloatScene scene = scene_of(bvh);
     for (size_t i = 0; i < rays.size(); ++i) {
         if (i % kStopInterval == 0 && task.stopped()) return;
@@ -303,7 +330,8 @@ HWY_NOINLINE void closest_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, s
 template <Mode mode, uint32_t Width>
 HWY_NOINLINE void any_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, std::span<const Ray> rays,
                               std::span<uint8_t> occluded, const Task& task) {
-    if (bvh.nodes.empty()) return std::ranges::fill(occluded, uint8_t{0});
+    std::ranges::fill(occluded, uint8_t{0});
+    if (bvh.nodes.empty()) return;
     const FloatScene scene = scene_of(bvh);
     for (size_t i = 0; i < rays.size(); ++i) {
         if (i % kStopInterval == 0 && task.stopped()) return;
