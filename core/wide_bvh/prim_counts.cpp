@@ -29,7 +29,7 @@ PrimCounts::PrimCounts(const Mesh& mesh, const Bvh2& bvh, uint32_t most, const T
     : bvh_(bvh),
       task_(task),
       most_(most),
-      may_repeat_(bvh.prims.size() > mesh.triangle_count()),
+      may_repeat_(bvh.prims.size() != mesh.triangle_count()),
       counts_(bvh.nodes.size(), kMany) {
     BOXWOOD_ASSERT(most <= kMost);
     std::vector<uint32_t> prims;

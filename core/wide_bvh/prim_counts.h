@@ -31,7 +31,7 @@ private:
     const Bvh2& bvh_;
     const Task& task_;
     uint32_t most_;
-    bool may_repeat_;  ///< two leaves may hold the same primitive
+    bool may_repeat_;  ///< two leaves hold the same primitive: every one occurs, and there are more places
     std::vector<uint8_t> counts_;
 };
 
