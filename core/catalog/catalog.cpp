@@ -7,6 +7,7 @@
 #include "core/bvh/object_median.h"
 #include "core/bvh/refit.h"
 #include "core/bvh/spatial_median.h"
+#include "core/bvh/spatial_splits.h"
 #include "core/bvh/sweep_sah.h"
 #include "core/grid/uniform_grid.h"
 #include "core/kdtree/kd_median.h"
@@ -41,6 +42,7 @@ constexpr CatalogEntry kBuilders[] = {
                       "Kerbl, lecture, \"Splitting at object median\""),
     row<BinnedSah>("bvh-binned-sah", "BVH, binned SAH", "Wald 2007, section 3"),
     row<SweepSah>("bvh-sweep-sah", "BVH, SAH sweep", "Wald, Boulos and Shirley 2007, section 4"),
+    row<SpatialSplits>("bvh-spatial-splits", "BVH, spatial splits", "Stich, Friedrich and Dietrich 2009"),
     row<BspSah>("bsp", "BSP, planes of triangles and axes",
                 "Fuchs, Kedem and Naylor 1980; Ize, Wald and Parker 2008; Kerbl, lecture"),
     row<KdMedian>("kd-median", "kd-tree, median", "Bentley 1975; Kaplan 1985; Kerbl, lecture, \"k-d tree\""),
