@@ -5,6 +5,7 @@
 #include "core/bvh/binned_sah.h"
 #include "core/bvh/late_split_clipping.h"
 #include "core/bvh/object_median.h"
+#include "core/bvh/optimize.h"
 #include "core/bvh/refit.h"
 #include "core/bvh/spatial_median.h"
 #include "core/bvh/spatial_splits.h"
@@ -54,6 +55,7 @@ constexpr CatalogEntry kTransforms[] = {
     row<AddRopes>("ropes", "kd-tree with ropes, stackless",
                   "Popov, Guenther, Seidel and Slusallek 2007, section 3"),
     row<LateSplitClipping>("lsc", "late split clipping", "Ernst and Greiner 2007, 5.1"),
+    row<Optimize>("optimize", "parallel reinsertion", "Meister and Bittner 2018"),
     row<Spheres>("spheres", "bounding spheres", "Kerbl, lecture, \"Bounding volumes\""),
     row<OrientedBoxes>("oriented-boxes", "oriented boxes",
                        "Kerbl, lecture, \"Bounding volumes\"; Gottschalk et al. 1996"),
