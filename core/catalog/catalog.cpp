@@ -5,8 +5,10 @@
 #include "core/bvh/binned_sah.h"
 #include "core/bvh/late_split_clipping.h"
 #include "core/bvh/object_median.h"
+#include "core/bvh/optimize.h"
 #include "core/bvh/refit.h"
 #include "core/bvh/spatial_median.h"
+#include "core/bvh/spatial_splits.h"
 #include "core/bvh/sweep_sah.h"
 #include "core/grid/uniform_grid.h"
 #include "core/kdtree/kd_median.h"
@@ -42,6 +44,7 @@ constexpr CatalogEntry kBuilders[] = {
                       "Kerbl, lecture, \"Splitting at object median\""),
     row<BinnedSah>("bvh-binned-sah", "BVH, binned SAH", "Wald 2007, section 3"),
     row<SweepSah>("bvh-sweep-sah", "BVH, SAH sweep", "Wald, Boulos and Shirley 2007, section 4"),
+    row<SpatialSplits>("bvh-spatial-splits", "BVH, spatial splits", "Stich, Friedrich and Dietrich 2009"),
     row<BspSah>("bsp", "BSP, planes of triangles and axes",
                 "Fuchs, Kedem and Naylor 1980; Ize, Wald and Parker 2008; Kerbl, lecture"),
     row<KdMedian>("kd-median", "kd-tree, median", "Bentley 1975; Kaplan 1985; Kerbl, lecture, \"k-d tree\""),
@@ -53,6 +56,7 @@ constexpr CatalogEntry kTransforms[] = {
     row<AddRopes>("ropes", "kd-tree with ropes, stackless",
                   "Popov, Guenther, Seidel and Slusallek 2007, section 3"),
     row<LateSplitClipping>("lsc", "late split clipping", "Ernst and Greiner 2007, 5.1"),
+    row<Optimize>("optimize", "parallel reinsertion", "Meister and Bittner 2018"),
     row<Spheres>("spheres", "bounding spheres", "Kerbl, lecture, \"Bounding volumes\""),
     row<OrientedBoxes>("oriented-boxes", "oriented boxes",
                        "Kerbl, lecture, \"Bounding volumes\"; Gottschalk et al. 1996"),

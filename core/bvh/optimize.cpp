@@ -1,0 +1,98 @@
+#include "core/bvh/optimize.h"
+
+#include <algorithm>
+
+#include "core/base/parallel.h"
+#include "core/bvh/linked_tree.h"
+
+namespace boxwood {
+
+namespace {
+
+constexpr size_t kBlock = 256;  ///< searches that one thread does at a time
+
+/// Sum of the half areas of inner nodes: all of the SAH cost that moves change.
+double inner_area(const Bvh2& bvh) {
+    double sum = 0.0;
+    for (const Bvh2::Node& node : bvh.nodes)
+        if (!node.is_leaf()) sum += Box{node.lower, node.upper}.half_area();
+    return sum;
+}
+
+/// The movable nodes with the largest areas, of equal ones the lower ones.
+std::vector<uint32_t> largest_nodes(const LinkedTree& tree, uint32_t node_count, double share) {
+    struct Candidate {
+        double area;
+        uint32_t node;
+        bool operator<(const Candidate& other) const {
+            return area > other.area || (area == other.area && node < other.node);
+        }
+    };
+    std::vector<Candidate> candidates;
+    for (uint32_t node = 1; node < node_count; ++node)
+        if (tree.is_movable(node)) candidates.push_back({tree.half_area(node), node});
+    const auto wanted = static_cast<size_t>(std::ceil(share * static_cast<double>(candidates.size())));
+    const size_t count = std::min(wanted, candidates.size());
+    std::nth_element(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count),
+                     candidates.end());
+    std::vector<uint32_t> nodes(count);
+    for (size_t i = 0; i < count; ++i) nodes[i] = candidates[i].node;
+    return nodes;
+}
+
+std::vector<LinkedTree::Move> find_moves(const LinkedTree& tree, const std::vector<uint32_t>& nodes,
+                                         Task& task) {
+    std::vector<std::optional<LinkedTree::Move>> found(nodes.size());
+    parallel_for(nodes.size(), kBlock, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end && !task.stopped(); ++i) found[i] = tree.best_move(nodes[i]);
+        task.done += end - begin;
+    });
+    std::vector<LinkedTree::Move> moves;
+    for (const auto& move : found)
+        if (move) moves.push_back(*move);
+    std::ranges::sort(moves, [](const LinkedTree::Move& a, const LinkedTree::Move& b) {
+        return a.gain > b.gain || (a.gain == b.gain && a.node < b.node);
+    });
+    return moves;
+}
+
+}  // namespace
+
+void Optimize::describe(ParamVisitor& v) {
+    v.on_int("rounds", rounds, 1, 64, "times that nodes are taken out and put back, at most");
+    v.on_float("share", share, 0.001f, 1.0f, "of the nodes that a round tries, those with the largest areas");
+}
+
+Bvh2 Optimize::apply(const Mesh&, std::span<const PrimRef>, const Bvh2& input, Task& task) const {
+    LinkedTree tree(input);
+    const auto node_count = static_cast<uint32_t>(input.nodes.size());
+    const double before = inner_area(input);
+    // Far below what is worth a move, far above what sums of areas round by.
+    const double least_gain = before * 1e-12;
+    uint64_t move_count = 0, in_best_place = 0, overtaken = 0;
+    task.total = static_cast<uint64_t>(double(share) * node_count) * static_cast<uint64_t>(rounds);
+    for (int round = 0; round < rounds; ++round) {
+        const std::vector<uint32_t> nodes = largest_nodes(tree, node_count, double(share));
+        const std::vector<LinkedTree::Move> moves = find_moves(tree, nodes, task);
+        if (task.stopped()) return {};
+        in_best_place += nodes.size() - moves.size();
+        uint64_t made = 0;
+        for (const LinkedTree::Move& move : moves) {
+            const std::optional<double> gain = tree.gain(move.node, move.to);
+            if (gain && *gain > least_gain) {
+                tree.move(move.node, move.to);
+                ++made;
+            }
+        }
+        overtaken += moves.size() - made;
+        move_count += made;
+        if (made == 0) break;
+    }
+    task.skipped.add("in the best place", in_best_place);
+    task.skipped.add("overtaken by other moves", overtaken);
+    if (move_count == 0) return input;
+    Bvh2 result = tree.bvh(input);
+    return inner_area(result) < before ? result : input;
+}
+
+}  // namespace boxwood
