@@ -4,6 +4,7 @@
 #include "core/bsp/bsp_build.h"
 #include "core/bvh/binned_sah.h"
 #include "core/bvh/late_split_clipping.h"
+#include "core/bvh/morton.h"
 #include "core/bvh/object_median.h"
 #include "core/bvh/refit.h"
 #include "core/bvh/spatial_median.h"
@@ -41,6 +42,7 @@ constexpr CatalogEntry kBuilders[] = {
                       "Kerbl, lecture, \"Splitting at object median\""),
     row<BinnedSah>("bvh-binned-sah", "BVH, binned SAH", "Wald 2007, section 3"),
     row<SweepSah>("bvh-sweep-sah", "BVH, SAH sweep", "Wald, Boulos and Shirley 2007, section 4"),
+    row<Morton>("bvh-morton", "BVH, Morton order", "Lauterbach et al. 2009, section 3"),
     row<BspSah>("bsp", "BSP, planes of triangles and axes",
                 "Fuchs, Kedem and Naylor 1980; Ize, Wald and Parker 2008; Kerbl, lecture"),
     row<KdMedian>("kd-median", "kd-tree, median", "Bentley 1975; Kaplan 1985; Kerbl, lecture, \"k-d tree\""),
