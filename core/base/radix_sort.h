@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -22,7 +23,9 @@ std::span<T> radix_sort(std::span<T> items, std::span<T> spare, int first_bit, i
     using Counts = std::array<uint32_t, kDigits>;
     std::vector<Counts> blocks((items.size() + kBlock - 1) / kBlock);
     for (int bit = first_bit; bit < first_bit + bit_count; bit += kDigitBits) {
-        const auto digit = [&](const T& item) { return (key(item) >> bit) & (kDigits - 1); };
+        const int digit_bits = std::min(kDigitBits, first_bit + bit_count - bit);
+        const uint64_t mask = (uint64_t{1} << digit_bits) - 1;
+        const auto digit = [&](const T& item) { return (key(item) >> bit) & mask; };
         parallel_for(items.size(), kBlock, [&](size_t begin, size_t end) {
             Counts& counts = blocks[begin / kBlock];
             counts.fill(0);

@@ -108,14 +108,16 @@ std::vector<Run> find_levels(MortonOrder& order, uint32_t run_limit) {
 MortonGrid::MortonGrid(const Box& half_centers) {
     const Vec3 lower = half_centers.lower, extent = half_centers.upper - lower;
     lower_ = Float4{lower.x, lower.y, lower.z, 0.0f};
-    scale_ = splat(0.0f);
+    const float largest = std::max({extent.x, extent.y, extent.z});
+    const float scale = static_cast<float>(1 << kAxisBits) / largest;
+    scale_ = splat(std::isfinite(scale) ? scale : 0.0f);
     for (int axis = 0; axis < 3; ++axis) {
-        const float scale = static_cast<float>(1 << kAxisBits) / extent[axis];
-        scale_[axis] = std::isfinite(scale) ? scale : 0.0f;
         shift_[axis] = 2;
-        for (int other = 0; other < 3; ++other)
-            if (extent[other] > extent[axis] || (extent[other] == extent[axis] && other < axis))
-                --shift_[axis];
+        for (int other = 0; other < 3; ++other) {
+            const bool is_longer =
+                extent[other] > extent[axis] || (extent[other] == extent[axis] && other < axis);
+            if (is_longer) --shift_[axis];
+        }
     }
 }
 

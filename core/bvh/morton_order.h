@@ -8,8 +8,8 @@ namespace boxwood {
 
 /// Maps centres to places on the Morton curve. Morton, "A computer oriented geodetic data base and a new
 /// technique in file sequencing", IBM 1966.
-/// Each axis of the box of all centres is cut into 2^21 intervals of one length; an axis without extent is
-/// not cut.
+/// A cube with the longest extent of all centres as its edge is cut into 2^21 intervals along each axis.
+/// Cubic cells make better trees than those that have the shape of the scene, of most scenes.
 class MortonGrid {
 public:
     explicit MortonGrid(const Box& half_centers);
