@@ -31,7 +31,7 @@ uint64_t skipped(const Task& task, const std::string& reason) {
 /// The boxes of a triangle have disjoint interiors, and the parts of the triangle in them make up all of it:
 /// in exact arithmetic their areas sum to the triangle's. (Where the triangle lies in a plane between two
 /// boxes, a part would count twice; the inputs avoid it.)
-void expect_a_partition(const Mesh& mesh, const std::vector<PrimRef>& refs) {
+void expect_a_partition(const Mesh& mesh, std::span<const PrimRef> refs) {
     size_t next = 0;
     for (uint32_t prim = 0; prim < mesh.triangle_count(); ++prim) {
         const Triangle triangle = mesh.triangle(prim);
@@ -168,7 +168,7 @@ TEST(EarlySplitClipping, StaysInsideItsBudgetAndSaysSo) {
 
 TEST(EarlySplitClipping, IsTheSameForAnyNumberOfThreads) {
     const Mesh mesh = make_mesh(random_triangles(3000, -1, 1, 8));
-    const std::vector<PrimRef> many = make(mesh, relative(4)).refs;
+    const Array<PrimRef> many = make(mesh, relative(4)).refs;
     const ThreadLimit limit(1);
     EXPECT_EQ(many, make(mesh, relative(4)).refs);
 }

@@ -261,7 +261,7 @@ TEST(EdgeVolume, AddsNothingToTheBunny) {
 
 TEST(EdgeVolume, IsTheSameForAnyNumberOfThreads) {
     const Mesh mesh = make_mesh(random_triangles(3000, -1, 1, 11));
-    const std::vector<PrimRef> many = make(mesh, 7).refs;
+    const Array<PrimRef> many = make(mesh, 7).refs;
     const ThreadLimit limit(1);
     EXPECT_EQ(many, make(mesh, 7).refs);
 }

@@ -22,7 +22,7 @@ uint64_t skipped(const Task& task, const std::string& reason) {
     return found == counts.end() ? 0 : found->second;
 }
 
-std::vector<Box> boxes_of(const std::vector<PrimRef>& refs, uint32_t prim) {
+std::vector<Box> boxes_of(std::span<const PrimRef> refs, uint32_t prim) {
     std::vector<Box> boxes;
     for (const PrimRef& ref : refs)
         if (ref.prim == prim) boxes.push_back(ref.bounds);
@@ -32,7 +32,7 @@ std::vector<Box> boxes_of(const std::vector<PrimRef>& refs, uint32_t prim) {
 TEST(Refinement, CutsOneIntoFourAsComputedByHand) {
     const Mesh mesh = make_mesh({{{0, 0, 0}, {8, 0, 0}, {0, 4, 2}}});
     EXPECT_EQ(make(mesh, {.rounds = 0}).refs.size(), 1u);
-    const std::vector<PrimRef> refs = make(mesh, {.rounds = 1}).refs;
+    const Array<PrimRef> refs = make(mesh, {.rounds = 1}).refs;
     ASSERT_EQ(refs.size(), 4u);
     // At corner c, the middle piece, at corner b, at corner a.
     EXPECT_EQ(refs[0].bounds, (Box{{0, 2, 1}, {4, 4, 2}}));
@@ -62,7 +62,7 @@ TEST(Refinement, TheUnionOfTheBoxesContainsTheTriangle) {
                                        std::pair{-1e-38f, 1e-38f}, std::pair{-1e38f, 1e38f}}) {
         const Mesh mesh = make_mesh(random_triangles(6, lower, upper, 1));
         for (const int rounds : {1, 2, 3}) {
-            const std::vector<PrimRef> refs = make(mesh, {.rounds = rounds}).refs;
+            const Array<PrimRef> refs = make(mesh, {.rounds = rounds}).refs;
             for (uint32_t prim = 0; prim < 6; ++prim) {
                 const std::vector<Box> boxes = boxes_of(refs, prim);
                 ASSERT_EQ(boxes.size(), size_t{1} << (2 * rounds));
@@ -83,7 +83,7 @@ TEST(Refinement, EachBoxContainsItsExactPieceWhereSumsRound) {
                 corner[axis] = std::ldexp(value, -static_cast<int>(rng.next_index(40)));
             }
         const Mesh mesh = make_mesh({{corners[0], corners[1], corners[2]}});
-        const std::vector<PrimRef> refs = make(mesh, {.rounds = 2}).refs;
+        const Array<PrimRef> refs = make(mesh, {.rounds = 2}).refs;
         ASSERT_EQ(refs.size(), 16u);
         const auto is_inside = [&](const Box& box, int i, int j) {
             for (int axis = 0; axis < 3; ++axis) {
@@ -143,7 +143,7 @@ TEST(Refinement, StaysInsideItsBudgetByWholeRounds) {
 
 TEST(Refinement, IsTheSameForAnyNumberOfThreads) {
     const Mesh mesh = make_mesh(random_triangles(3000, -1, 1, 4));
-    const std::vector<PrimRef> many = make(mesh, {.rounds = 2}).refs;
+    const Array<PrimRef> many = make(mesh, {.rounds = 2}).refs;
     const ThreadLimit limit(1);
     EXPECT_EQ(many, make(mesh, {.rounds = 2}).refs);
 }

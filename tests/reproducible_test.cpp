@@ -56,11 +56,11 @@ struct Pinned {
 };
 
 constexpr Pinned kPinned[] = {
-    {"atrium", "bvh-binned-sah", 0xedecb756c73c8b26ull, 0xe82eb49e987a6d2eull, 0x2ab35ae8ba0d4165ull},
+    {"atrium", "bvh-binned-sah", 0x4f40a15287bb0907ull, 0xe82eb49e987a6d2eull, 0x2ab35ae8ba0d4165ull},
     {"atrium", "evh(t=12) > bvh-spatial-median", 0xe0203350d7e4f9e3ull, 0xe82eb49e987a6d2eull,
      0x2ab35ae8ba0d4165ull},
     {"spaceship", "bvh-sweep-sah", 0x13a346d292284b66ull, 0x1acc863c54a4015full, 0xc65c42a9435c01e0ull},
-    {"spaceship", "esc(s=8) > bvh-binned-sah", 0xb20685fbd34da553ull, 0x1acc863c54a4015full,
+    {"spaceship", "esc(s=8) > bvh-binned-sah", 0x8627533c2b863786ull, 0x1acc863c54a4015full,
      0xc65c42a9435c01e0ull},
 };
 

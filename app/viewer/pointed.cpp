@@ -28,7 +28,7 @@ std::optional<Pointed> point_at(const Built& built, const BoxValues& values, con
                                  state.mode, Task{});
     if (!pointed.hit.is_hit()) return std::nullopt;
     pointed.point = ray.origin + pointed.hit.t * ray.direction;
-    const std::vector<PrimRef>& refs = built.references->refs;
+    const std::span<const PrimRef> refs = built.references->refs;
     const auto first_ref = std::ranges::lower_bound(refs, pointed.hit.prim, {}, &PrimRef::prim);
     const auto end_ref = std::ranges::upper_bound(refs, pointed.hit.prim, {}, &PrimRef::prim);
     pointed.hit_references = static_cast<uint32_t>(end_ref - first_ref);

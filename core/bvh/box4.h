@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "core/bvh/bvh2.h"
 #include "core/refs/prim_ref.h"
 
 namespace boxwood {
@@ -46,6 +47,12 @@ inline Float4 load_upper(const PrimRef& ref) {
     Float4 result;
     std::memcpy(&result, reinterpret_cast<const char*>(&ref) + sizeof(Vec3), sizeof result);
     return result;
+}
+
+/// Writes a whole node.
+inline void store_node(Bvh2::Node& node, const Box4& box, uint32_t first, uint32_t count) {
+    node = {Vec3(box.lower[0], box.lower[1], box.lower[2]), first,
+            Vec3(box.upper[0], box.upper[1], box.upper[2]), count};
 }
 
 /// See half_center.

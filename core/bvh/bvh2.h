@@ -1,7 +1,6 @@
 #pragma once
 
-#include <vector>
-
+#include "core/base/array.h"
 #include "core/structure/structure.h"
 
 namespace boxwood {
@@ -23,7 +22,7 @@ struct Bvh2 {
     };
     static_assert(sizeof(Node) == 32);
 
-    std::vector<Node> nodes;
+    Array<Node> nodes;
     std::vector<uint32_t> prims;  ///< of the leaves; no leaf holds one twice
 
     template <Mode mode, class Counter>

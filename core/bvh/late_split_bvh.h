@@ -19,8 +19,7 @@ struct LateSplitBvh {
     static constexpr const char* kFamily = "late split BVH";
     using Node = Bvh2::Node;
 
-    std::vector<Node>
-        nodes;  ///< those of the original tree, at their old places, then those below its leaves
+    Array<Node> nodes;  ///< those of the original tree, at their old places, then those below its leaves
     std::vector<uint32_t> prims;
     uint32_t original_count = 0;  ///< nodes of the original tree
     uint32_t single_end = 0;  ///< nodes [original_count, single_end) are below leaves that held one primitive

@@ -4,8 +4,10 @@
 #include "core/bsp/bsp_build.h"
 #include "core/bvh/binned_sah.h"
 #include "core/bvh/late_split_clipping.h"
+#include "core/bvh/morton.h"
 #include "core/bvh/object_median.h"
 #include "core/bvh/optimize.h"
+#include "core/bvh/ploc.h"
 #include "core/bvh/refit.h"
 #include "core/bvh/spatial_median.h"
 #include "core/bvh/spatial_splits.h"
@@ -45,6 +47,8 @@ constexpr CatalogEntry kBuilders[] = {
     row<BinnedSah>("bvh-binned-sah", "BVH, binned SAH", "Wald 2007, section 3"),
     row<SweepSah>("bvh-sweep-sah", "BVH, SAH sweep", "Wald, Boulos and Shirley 2007, section 4"),
     row<SpatialSplits>("bvh-spatial-splits", "BVH, spatial splits", "Stich, Friedrich and Dietrich 2009"),
+    row<Morton>("bvh-morton", "BVH, Morton order", "Lauterbach et al. 2009, section 3"),
+    row<Ploc>("bvh-ploc", "BVH, locally-ordered clustering", "Meister and Bittner 2018, section 3"),
     row<BspSah>("bsp", "BSP, planes of triangles and axes",
                 "Fuchs, Kedem and Naylor 1980; Ize, Wald and Parker 2008; Kerbl, lecture"),
     row<KdMedian>("kd-median", "kd-tree, median", "Bentley 1975; Kaplan 1985; Kerbl, lecture, \"k-d tree\""),

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/array.h"
 #include "core/base/box.h"
 #include "core/base/task.h"
 #include "core/scene/mesh.h"
@@ -21,7 +22,7 @@ struct PrimRef {
 /// Result of the references stage. The references of one primitive are adjacent, primitives in ascending
 /// order.
 struct References {
-    std::vector<PrimRef> refs;
+    Array<PrimRef> refs;
     size_t split_count = 0;  ///< primitives with more than one reference
 };
 

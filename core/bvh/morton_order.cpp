@@ -1,0 +1,164 @@
+#include "core/bvh/morton_order.h"
+
+#include <cmath>
+
+#include "core/base/radix_sort.h"
+
+namespace boxwood {
+
+namespace {
+
+constexpr int kAxisBits = 21, kLeadingAxisBits = 10;
+constexpr int kCodeBits = 3 * kAxisBits, kLeadingBits = 3 * kLeadingAxisBits;
+constexpr size_t kGrain = 1 << 14;
+
+/// Bit i of each of ten bits to bit 3 i, three axes at once.
+Int4 spread(Int4 v) {
+    v = (v | (v << 16)) & 0x030000ff;
+    v = (v | (v << 8)) & 0x0300f00f;
+    v = (v | (v << 4)) & 0x030c30c3;
+    return (v | (v << 2)) & 0x09249249;
+}
+
+/// Bit i of 21 bits to bit 3 i.
+uint64_t spread(uint64_t v) {
+    v = (v | (v << 32)) & 0x001f00000000ffffull;
+    v = (v | (v << 16)) & 0x001f0000ff0000ffull;
+    v = (v | (v << 8)) & 0x100f00f00f00f00full;
+    v = (v | (v << 4)) & 0x10c30c30c30c30c3ull;
+    return (v | (v << 2)) & 0x1249249249249249ull;
+}
+
+Box half_centers_of(std::span<const PrimRef> refs) {
+    std::vector<Box> boxes((refs.size() + kGrain - 1) / kGrain);
+    parallel_for(refs.size(), kGrain, [&](size_t begin, size_t end) {
+        Box4 box = empty_box4();
+        for (const PrimRef& ref : refs.subspan(begin, end - begin)) {
+            const Float4 center = half_center4(load_lower(ref), load_upper(ref));
+            box.extend(center, center);
+        }
+        boxes[begin / kGrain] = box.box();
+    });
+    Box all;
+    for (const Box& box : boxes) all.extend(box);
+    return all;
+}
+
+/// Entries [begin, end) with one leading code.
+struct Run {
+    size_t begin, end;
+};
+
+/// Sorts a run by whole codes.
+void refine(Run run, std::span<const PrimRef> refs, const MortonGrid& grid, MortonOrder& order) {
+    struct Item {
+        uint64_t code;
+        uint64_t key;
+    };
+    const size_t count = run.end - run.begin;
+    Array<Item> items(count), spare(count);
+    parallel_for(count, kGrain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const uint64_t key = order.keys[run.begin + i];
+            items[i] = {grid.code(refs[static_cast<uint32_t>(key)]), key};
+        }
+    });
+    std::span<const Item> sorted = items;
+    if (count < 1024) {
+        std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+            return a.code < b.code || (a.code == b.code && a.key < b.key);
+        });
+    } else {
+        sorted = radix_sort(std::span(items), std::span(spare), 0, kCodeBits - kLeadingBits,
+                            [](const Item& item) { return item.code; });
+    }
+    parallel_for(count, kGrain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            order.keys[run.begin + i] = sorted[i].key;
+            if (i + 1 == count) break;
+            const uint64_t difference = sorted[i].code ^ sorted[i + 1].code;
+            order.levels[run.begin + i] = static_cast<uint8_t>(std::countl_zero(difference) - 1);
+        }
+    });
+}
+
+/// Levels from leading codes; returns the runs longer than the limit.
+std::vector<Run> find_levels(MortonOrder& order, uint32_t run_limit) {
+    const size_t count = order.keys.size();
+    order.levels.resize(count - 1);
+    std::vector<std::vector<Run>> runs((count + kGrain - 1) / kGrain);
+    parallel_for(count - 1, kGrain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const uint32_t difference = order.leading_code(i) ^ order.leading_code(i + 1);
+            order.levels[i] = difference == 0 ? MortonOrder::kEqual
+                                              : static_cast<uint8_t>(std::countl_zero(difference) - 2);
+            if (difference != 0 || (i > 0 && order.leading_code(i - 1) == order.leading_code(i))) continue;
+            size_t run_end = i + 2;
+            while (run_end < count && order.leading_code(run_end) == order.leading_code(i)) ++run_end;
+            if (run_end - i > run_limit) runs[begin / kGrain].push_back({i, run_end});
+        }
+    });
+    std::vector<Run> all;
+    for (const std::vector<Run>& some : runs) all.insert(all.end(), some.begin(), some.end());
+    return all;
+}
+
+}  // namespace
+
+MortonGrid::MortonGrid(const Box& half_centers) {
+    const Vec3 lower = half_centers.lower, extent = half_centers.upper - lower;
+    lower_ = Float4{lower.x, lower.y, lower.z, 0.0f};
+    const float largest = std::max({extent.x, extent.y, extent.z});
+    const float scale = static_cast<float>(1 << kAxisBits) / largest;
+    scale_ = splat(std::isfinite(scale) ? scale : 0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+        shift_[axis] = 2;
+        for (int other = 0; other < 3; ++other) {
+            const bool is_longer =
+                extent[other] > extent[axis] || (extent[other] == extent[axis] && other < axis);
+            if (is_longer) --shift_[axis];
+        }
+    }
+}
+
+Int4 MortonGrid::cell(const PrimRef& ref) const {
+    const Float4 position = (half_center4(load_lower(ref), load_upper(ref)) - lower_) * scale_;
+    const Int4 cell = __builtin_convertvector(position, Int4);
+    constexpr int32_t kLast = (1 << kAxisBits) - 1;
+    return cell > kLast ? Int4{kLast, kLast, kLast, kLast} : cell;
+}
+
+uint64_t MortonGrid::code(const PrimRef& ref) const {
+    const Int4 c = cell(ref);
+    uint64_t code = 0;
+    for (int axis = 0; axis < 3; ++axis) code |= spread(static_cast<uint64_t>(c[axis])) << shift_[axis];
+    return code;
+}
+
+uint32_t MortonGrid::leading_code(const PrimRef& ref) const {
+    const Int4 c = spread(cell(ref) >> (kAxisBits - kLeadingAxisBits));
+    uint32_t code = 0;
+    for (int axis = 0; axis < 3; ++axis) code |= static_cast<uint32_t>(c[axis]) << shift_[axis];
+    return code;
+}
+
+MortonOrder morton_order(std::span<const PrimRef> refs, uint32_t run_limit, const Task& task) {
+    MortonOrder order;
+    if (refs.empty()) return order;
+    const MortonGrid grid(half_centers_of(refs));
+    order.keys.resize(refs.size());
+    parallel_for(refs.size(), kGrain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) order.keys[i] = uint64_t{grid.leading_code(refs[i])} << 32 | i;
+    });
+    if (task.stopped()) return order;
+    Array<uint64_t> spare(refs.size());
+    radix_sort(std::span(order.keys), std::span(spare), 32, kLeadingBits, [](uint64_t key) { return key; });
+    order.keys.swap(spare);  // three digits: the result is in the spare
+    const std::vector<Run> runs = find_levels(order, run_limit);
+    parallel_for(runs.size(), 16, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end && !task.stopped(); ++i) refine(runs[i], refs, grid, order);
+    });
+    return order;
+}
+
+}  // namespace boxwood
