@@ -14,6 +14,8 @@ constexpr Command kSuites[] = {
     {"error", "run time against error: both modes and plain double precision", run_bench_error},
     {"interact", "how quickly the program answers", run_bench_interact},
     {"lecture", "the lecture's comparison of structures: memory, build, rays", run_bench_lecture},
+    {"peers", "recipes side by side with Embree: rays per second, build, bytes, wrong answers",
+     run_bench_peers},
     {"refit", "refit against rebuild, by frame of an animated scene", run_bench_refit},
 };
 
