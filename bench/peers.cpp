@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <utility>
 
-#include "bench/build_time.h"
+#include "bench/contestant.h"
 #include "bench/ray_sets.h"
 #include "bench/timing.h"
 #include "core/base/parallel.h"
@@ -19,92 +18,6 @@ namespace boxwood::bench {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr size_t kBatch = 4096;  ///< rays that a thread takes at once; whole packets
-
-/// One who casts. A function that is empty: does not take part in that kind.
-struct Contestant {
-    std::string name, recipe, mode;
-    std::function<void(std::span<const Ray>, std::span<Hit>)> closest_hits{}, packets{};
-    std::function<void(std::span<const Ray>, std::span<uint8_t>)> any_hits{};
-    Demand demand = Demand::Nearest;
-    double build_ms = 0.0;
-    uint64_t bytes = 0;
-
-    bool takes(Casting casting) const {
-        if (casting == Casting::Any) return any_hits != nullptr;
-        return casting == Casting::Closest ? closest_hits != nullptr : packets != nullptr;
-    }
-    void cast(const RaySet& set, size_t begin, size_t end, Answers& answers) const {
-        const std::span<const Ray> rays = std::span(set.rays).subspan(begin, end - begin);
-        if (set.casting == Casting::Any) {
-            any_hits(rays, std::span(answers.occluded).subspan(begin, end - begin));
-        } else {
-            const auto& closest = set.casting == Casting::Packets ? packets : closest_hits;
-            closest(rays, std::span(answers.hits).subspan(begin, end - begin));
-        }
-    }
-};
-
-void add_recipe(std::vector<Contestant>& contestants, const Recipe& recipe, const Mesh& mesh,
-                const TimedBuild& built, bool with_fast_mode, const Task& task) {
-    for (const Mode mode : {Mode::Exact, Mode::Fast}) {
-        if (mode == Mode::Fast && !with_fast_mode) continue;
-        Contestant one;
-        one.recipe = print(recipe);
-        one.name = "boxwood:" + one.recipe;
-        one.mode = mode == Mode::Exact ? "exact" : "fast";
-        one.demand = mode == Mode::Exact ? Demand::Exact : Demand::Nearest;
-        one.closest_hits = [structure = built.structure, &mesh, mode, &task](std::span<const Ray> rays,
-                                                                             std::span<Hit> hits) {
-            structure.closest_hits(mesh, rays, hits, mode, task);
-        };
-        one.packets = one.closest_hits;
-        one.any_hits = [structure = built.structure, &mesh, mode, &task](std::span<const Ray> rays,
-                                                                         std::span<uint8_t> occluded) {
-            structure.any_hits(mesh, rays, occluded, mode, task);
-        };
-        one.build_ms = built.ms();
-        one.bytes = built.structure.byte_count();
-        contestants.push_back(std::move(one));
-    }
-}
-
-void add_embree(std::vector<Contestant>& contestants, const EmbreeVariant& variant, const Mesh& mesh,
-                int threads) {
-    const auto scene = std::make_shared<EmbreeScene>(mesh, variant);
-    const ThreadLimit limit(threads);
-    const double begin = clock_ms(threads);
-    scene->build();
-    Contestant one;
-    one.build_ms = clock_ms(threads) - begin;
-    one.name = variant.name;
-    one.bytes = scene->byte_count();
-    one.closest_hits = [scene](std::span<const Ray> rays, std::span<Hit> hits) {
-        scene->closest_hits(rays, hits);
-    };
-    one.any_hits = [scene](std::span<const Ray> rays, std::span<uint8_t> occluded) {
-        scene->any_hits(rays, occluded);
-    };
-    one.packets = [scene](std::span<const Ray> rays, std::span<Hit> hits) {
-        scene->closest_hits_in_packets(rays, hits);
-    };
-    contestants.push_back(std::move(one));
-}
-
-/// Casts the whole set; the milliseconds it took.
-double cast(const Contestant& contestant, const RaySet& set, int threads, Answers& answers) {
-    if (threads == 1) {
-        const CorePin pin;
-        const double begin = clock_ms(threads);
-        contestant.cast(set, 0, set.rays.size(), answers);
-        return clock_ms(threads) - begin;
-    }
-    const double begin = clock_ms(threads);
-    parallel_for(set.rays.size(), kBatch,
-                 [&](size_t first, size_t end) { contestant.cast(set, first, end, answers); });
-    return clock_ms(threads) - begin;
-}
-
 /// Rounds over all contestants until the time is used.
 void time_rounds(std::span<const Contestant> contestants, const RaySet& set, int threads,
                  const PeerSettings& settings, std::span<PeerRow> rows, Task& task) {
@@ -240,13 +153,13 @@ std::vector<PeerRow> run_peers(std::shared_ptr<const Scene> scene, const PeerSet
     for (const int threads : settings.threads) {
         std::vector<Contestant> contestants;
         for (const Recipe& recipe : settings.recipes) {
-            const std::optional<TimedBuild> built = build_timed(recipe, scene->mesh, threads, task);
+            const std::optional<Structure> built = add_recipe(contestants, recipe, scene->mesh, threads,
+                                                              settings.builds, settings.with_fast_mode, task);
             if (!built) return {};
-            if (sets.empty()) sets = peer_rays(built->structure, *scene, settings, task);
-            add_recipe(contestants, recipe, scene->mesh, *built, settings.with_fast_mode, task);
+            if (sets.empty()) sets = peer_rays(*built, *scene, settings, task);
         }
         for (const EmbreeVariant& variant : settings.variants)
-            add_embree(contestants, variant, scene->mesh, threads);
+            add_embree(contestants, variant, scene->mesh, threads, settings.builds);
         for (const RaySet& set : sets) {
             std::vector<PeerRow> part = rows_for(set, *scene, contestants, oracle, threads, settings, task);
             if (task.stopped()) return {};

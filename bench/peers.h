@@ -27,6 +27,7 @@ struct PeerSettings {
     std::vector<std::string> kinds;  ///< of kRayKinds; empty: all
     bool with_fast_mode = true;      ///< beside exact mode
     size_t sample_count = 2000;      ///< rays of each kind judged by rational arithmetic, and those disputed
+    int builds = 1;                  ///< of each structure, the median of their times counts
     double seconds = 2.0;            ///< at least, for the rounds of each kind
     uint64_t least_rounds = 7;
     uint64_t seed = 1;  ///< of the order within rounds
@@ -40,7 +41,7 @@ struct PeerRow {
     std::string rays_kind;
     int threads = 1;
     uint64_t triangles = 0, rays = 0;
-    double build_ms = 0.0;   ///< once, on so many threads
+    double build_ms = 0.0;   ///< on so many threads
     uint64_t bytes = 0;      ///< of the structure, without the mesh
     std::vector<double> ms;  ///< of each round
     uint64_t refused = 0;    ///< rounds whose answers were not those judged

@@ -1,120 +1,79 @@
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 
 #include "app/cli/camera_options.h"
 #include "app/cli/progress.h"
 #include "app/command/commands.h"
+#include "app/command/peer_options.h"
 #include "app/command/shared.h"
 #include "bench/peers.h"
 
 namespace boxwood {
 namespace {
 
-using bench::EmbreeVariant;
 using bench::PeerRow;
-using bench::PeerSettings;
 
-/// "1", "2" ... or "all".
-std::vector<int> thread_counts(const std::vector<std::string>& texts) {
-    std::vector<int> counts;
-    for (const std::string& text : texts) {
-        int count = text == "all" ? thread_count() : 0;
-        if (count == 0) {
-            const auto end = std::from_chars(text.data(), text.data() + text.size(), count);
-            if (end.ec != std::errc() || end.ptr != text.data() + text.size() || count < 1 || count > 1024)
-                throw Error(ExitCode::WrongUsage,
-                            "--threads " + to_utf8(text) + ": expected a number from 1 to 1024, or all");
-        }
-        if (std::ranges::find(counts, count) == counts.end()) counts.push_back(count);
-    }
-    return counts;
-}
+constexpr const char* kFooter =
+    "Rays: through the pixel centres; one cosine-distributed bounce from each hit; a shadow ray from each\n"
+    "hit that faces the light, to a point light up and to the right of the eye, half way to what stands\n"
+    "there, at most half the scene's diagonal far. One after the other in that order, t and primitive (or\n"
+    "one byte) written for each; \"primary packets\": in tiles of 4 x 4, Embree by packets of 16. Times:\n"
+    "one thread pinned to a core and its processor time, or all threads and the wall clock; rounds over\n"
+    "all contestants in random order after one that warms up; medians. ratio: rate over that of the best\n"
+    "peer in its cell, ratio_low and ratio_high hold 95 % of its bootstrap. wrong: of the rays judged, a\n"
+    "sample and every ray that contestants answer differently (disputed; at most 10 times the sample).\n"
+    "ties: another primitive at exactly the same t. Exits 1 if exact mode has a wrong answer, or if\n"
+    "answers changed between rounds. bench/plots.py draws the JSON.\n\n";
 
-/// The words that name something, each checked.
-std::vector<std::string> checked_words(const char* option, const std::vector<std::string>& words,
-                                       const std::vector<std::string>& valid) {
-    for (const std::string& word : words) {
-        if (std::ranges::find(valid, word) == valid.end())
-            throw Error(ExitCode::WrongUsage, std::string(option) + " " + to_utf8(word) + ": did you mean " +
-                                                  nearest_word(word, valid) + "?");
+void print_tables(const std::vector<PeerRow>& rows, Report& report, const std::string& json) {
+    std::vector<ReportRow> shown, summary;
+    for (const PeerRow& row : rows) {
+        report.rows.push_back(report_row(row));
+        shown.push_back(short_row(row));
     }
-    return words;
-}
-
-std::vector<EmbreeVariant> chosen_variants(const std::vector<std::string>& names) {
-    const std::span<const EmbreeVariant> all = bench::embree_variants();
-    if (!bench::has_embree()) {
-        std::fprintf(stderr,
-                     "boxwood: built without Embree (Debian: libembree-dev), so only Boxwood's rows are "
-                     "measured\n");
-        return {};
-    }
-    std::vector<std::string> valid;
-    for (const EmbreeVariant& variant : all) valid.emplace_back(variant.name);
-    checked_words("--peer", names, valid);
-    std::vector<EmbreeVariant> chosen;
-    std::ranges::copy_if(all, std::back_inserter(chosen), [&](const EmbreeVariant& variant) {
-        return names.empty() || std::ranges::find(names, variant.name) != names.end();
-    });
-    return chosen;
+    for (const bench::RatioSummary& one : bench::summarize(rows)) summary.push_back(report_row(one));
+    report.tables.emplace_back("summary", summary);
+    if (json != "-") std::printf("%s\n%s", to_table(shown).c_str(), to_table(summary).c_str());
+    if (!json.empty()) write_json(report, json);
 }
 
 }  // namespace
 
 ExitCode run_bench_peers(Arguments arguments) {
-    std::vector<std::string> scenes, texts, peers, kinds, threads;
+    std::vector<std::string> scenes, texts, kinds;
     std::string json;
-    int size = 1024, sample_count = 2000, rounds = 7;
+    int sample_count = 2000, rounds = 7;
     bool exact_only = false;
     CameraOptions camera_options;
-    PeerSettings settings;
+    PeerOptions peer_options(bench::embree_variants());
+    bench::PeerSettings settings;
     Options options("bench peers",
                     "Measures recipes side by side with Embree: the same rays, the same clock, the same "
                     "answers written; wrong answers counted by exact arithmetic.");
     options.texts("-s,--scene", "SCENE", scenes, "scene; may be given several times (default: atrium)");
     options.texts("-r,--recipe", "RECIPE", texts, "structure; may be given several times");
-    options.texts("-p,--peer", "NAME", peers,
-                  "embree:high, embree:high-avx2, embree:high-avx2-splits2, embree:high-robust; may be given "
-                  "several times (default: all)");
+    peer_options.add_to(options);
     options.texts(
         "-k,--kind", "KIND", kinds,
         "primary, diffuse, shadow or \"primary packets\"; may be given several times (default: all)");
-    options.texts("--threads", "N", threads,
-                  "threads, or \"all\"; may be given several times (default: 1 and all)");
-    options.integer("--size", size, 1, 16384, "the camera's picture, pixels along a side (default: 1024)");
+    options.integer("--size", settings.size, 1, 16384,
+                    "the camera's picture, pixels along a side (default: 1024)");
     options.integer("--rounds", rounds, 1, 1000000, "rounds, at least (default: 7)");
     options.real("--seconds", settings.seconds, 0.0, 1e6,
                  "time for the rounds of each kind of rays, at least (default: 2)");
     options.integer("--sample", sample_count, 0, 100000000,
                     "rays of each kind judged by exact arithmetic, besides those disputed (default: 2000)");
+    options.integer("--builds", settings.builds, 1, 1000, "builds of each structure (default: 1)");
     options.flag("--exact-only", exact_only, "leave out fast mode");
     camera_options.add_to(options);
     options.text("--json", "FILE", json, "write the rows as JSON (- for standard output)");
-    options.footer(
-        "Rays: through the pixel centres; one cosine-distributed bounce from each hit; a shadow ray from "
-        "each\n"
-        "hit that faces the light, to a point light up and to the right of the eye, half way to what stands\n"
-        "there, at most half the scene's diagonal far. One after the other in that order, t and primitive "
-        "(or\n"
-        "one byte) written for each; \"primary packets\": in tiles of 4 x 4, Embree by packets of 16. "
-        "Times:\n"
-        "one thread pinned to a core and its processor time, or all threads and the wall clock; rounds over\n"
-        "all contestants in random order after one that warms up; medians. ratio: rate over that of the "
-        "best\n"
-        "peer in its cell, ratio_low and ratio_high hold 95 % of its bootstrap. wrong: of the rays judged, "
-        "a\n"
-        "sample and every ray that contestants answer differently (disputed; at most 10 times the sample).\n"
-        "ties: another primitive at exactly the same t. Exits 1 if exact mode has a wrong answer, or if\n"
-        "answers changed between rounds. bench/plots.py draws the JSON.\n\n" +
-        recipe_help());
+    options.footer(kFooter + recipe_help());
     if (!options.parse(arguments)) return ExitCode::Done;
     settings.recipes = texts.empty() ? bench::quality_recipes() : parse_recipes(texts);
-    settings.threads = thread_counts(threads.empty() ? std::vector<std::string>{"1", "all"} : threads);
+    settings.threads = peer_options.threads();
     settings.kinds =
         checked_words("--kind", kinds, {std::begin(bench::kRayKinds), std::end(bench::kRayKinds)});
-    settings.variants = chosen_variants(peers);
-    settings.size = size;
+    settings.variants = peer_options.peers();
     settings.with_fast_mode = !exact_only;
     settings.sample_count = static_cast<size_t>(sample_count);
     settings.least_rounds = static_cast<uint64_t>(rounds);
@@ -130,15 +89,7 @@ ExitCode run_bench_peers(Arguments arguments) {
         const Progress progress(scene->title + ": peers", task);
         for (PeerRow& row : bench::run_peers(scene, settings, task)) rows.push_back(std::move(row));
     });
-    std::vector<ReportRow> shown, summary;
-    for (const PeerRow& row : rows) {
-        report.rows.push_back(report_row(row));
-        shown.push_back(short_row(row));
-    }
-    for (const bench::RatioSummary& one : bench::summarize(rows)) summary.push_back(report_row(one));
-    report.tables.emplace_back("summary", summary);
-    if (json != "-") std::printf("%s\n%s", to_table(shown).c_str(), to_table(summary).c_str());
-    if (!json.empty()) write_json(report, json);
+    if (!rows.empty()) print_tables(rows, report, json);
     return std::ranges::all_of(rows, &PeerRow::holds) ? result : ExitCode::CheckFailed;
 }
 

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/embree_peer.h"
+#include "bench/peer_judge.h"
+#include "core/base/task.h"
+#include "core/catalog/recipe.h"
+#include "core/structure/structure.h"
+
+namespace boxwood::bench {
+
+/// One who casts rays: a structure of Boxwood in one mode, or a peer. Of the functions those are empty that
+/// it has no part in.
+struct Contestant {
+    std::string name;          ///< "boxwood:RECIPE", "embree:high"
+    std::string recipe, mode;  ///< of Boxwood alone
+    std::function<void(std::span<const Ray>, std::span<Hit>)> closest_hits{}, packets{};
+    std::function<void(std::span<const Ray>, std::span<uint8_t>)> any_hits{};
+    Demand demand = Demand::Nearest;
+    double build_ms = 0.0;  ///< median
+    uint64_t bytes = 0;     ///< of the structure, without the mesh
+
+    bool takes(Casting casting) const;
+};
+
+/// Builds the recipe `builds` times on so many threads and adds it: in exact mode, and with `with_fast_mode`
+/// in fast mode too. Mesh and task must outlive the contestants. The structure, or nothing after a stop.
+std::optional<Structure> add_recipe(std::vector<Contestant>& contestants, const Recipe& recipe,
+                                    const Mesh& mesh, int threads, int builds, bool with_fast_mode,
+                                    Task& task);
+
+/// The same for a peer.
+void add_embree(std::vector<Contestant>& contestants, const EmbreeVariant& variant, const Mesh& mesh,
+                int threads, int builds);
+
+/// Casts the whole set on so many threads, a single one pinned to its core. The milliseconds it took, by
+/// clock_ms. `answers` has the set's size.
+double cast(const Contestant& contestant, const RaySet& set, int threads, Answers& answers);
+
+}  // namespace boxwood::bench
