@@ -12,6 +12,12 @@ namespace {
 
 constexpr const char* kSizes[] = {"100k", "200k", "500k", "1M", "2M", "5M", "10M"};
 
+constexpr const char* kFooter =
+    "Rays, clocks and rounds are those of `bench peers`, exact mode. mrays_by_log2: millions of rays per\n"
+    "second times log2 of the number of triangles. The second table: build_factor and bytes_factor,\n"
+    "largest over least of what a triangle takes; rate_fall, most by which a size's mrays_by_log2 lies\n"
+    "below that of a smaller one. bench/plots.py draws the JSON.\n\n";
+
 double count_of(const char* option, const std::string& text) {
     const std::optional<double> count = count_value(text);
     if (count && *count >= 1.0) return *count;
@@ -26,6 +32,18 @@ std::vector<std::string> sizes_up_to(const std::string& most, const std::vector<
     for (const std::string& text : sizes)
         if (count_of("--tris", text) <= limit) kept.push_back(text);
     return kept;
+}
+
+void print_tables(const std::vector<bench::PeerRow>& rows, Report& report, const std::string& json) {
+    std::vector<ReportRow> shown, summary;
+    for (const bench::PeerRow& row : rows) {
+        report.rows.push_back(bench::scale_row(row));
+        shown.push_back(bench::short_scale_row(row));
+    }
+    for (const bench::ScaleSummary& one : bench::summarize_scale(rows)) summary.push_back(report_row(one));
+    report.tables.emplace_back("summary", summary);
+    if (json != "-") std::printf("%s\n%s", to_table(shown).c_str(), to_table(summary).c_str());
+    if (!json.empty()) write_json(report, json);
 }
 
 }  // namespace
@@ -59,13 +77,7 @@ ExitCode run_bench_scale(Arguments arguments) {
                  "time for the rounds of each kind of rays, at least (default: 1)");
     options.integer("--builds", settings.builds, 1, 1000, "builds of each structure (default: 3)");
     options.text("--json", "FILE", json, "write the rows as JSON (- for standard output)");
-    options.footer(
-        "Rays, clocks and rounds are those of `bench peers`, exact mode. mrays_by_log2: millions of rays "
-        "per\n"
-        "second times log2 of the number of triangles. The second table: build_factor and bytes_factor,\n"
-        "largest over least of what a triangle takes; rate_fall, most by which a size's mrays_by_log2 lies\n"
-        "below that of a smaller one. bench/plots.py draws the JSON.\n\n" +
-        recipe_help());
+    options.footer(kFooter + recipe_help());
     if (!options.parse(arguments)) return ExitCode::Done;
     settings.recipes = texts.empty() ? bench::quality_recipes() : parse_recipes(texts);
     settings.threads = peer_options.threads();
@@ -86,15 +98,7 @@ ExitCode run_bench_scale(Arguments arguments) {
         const Progress progress(scene->title + ": scale", task);
         for (bench::PeerRow& row : bench::run_peers(scene, settings, task)) rows.push_back(std::move(row));
     }
-    std::vector<ReportRow> shown, summary;
-    for (const bench::PeerRow& row : rows) {
-        report.rows.push_back(bench::scale_row(row));
-        shown.push_back(bench::short_scale_row(row));
-    }
-    for (const bench::ScaleSummary& one : bench::summarize_scale(rows)) summary.push_back(report_row(one));
-    report.tables.emplace_back("summary", summary);
-    if (json != "-") std::printf("%s\n%s", to_table(shown).c_str(), to_table(summary).c_str());
-    if (!json.empty()) write_json(report, json);
+    print_tables(rows, report, json);
     return ExitCode::Done;
 }
 
