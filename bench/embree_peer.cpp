@@ -21,6 +21,8 @@ constexpr EmbreeVariant kVariants[] = {
     {"embree:high-avx2", "isa=avx2"},
     {"embree:high-avx2-splits2", "isa=avx2,max_spatial_split_replications=2"},
     {"embree:high-robust", "", EmbreeQuality::High, /*robust=*/true},
+    {"embree:low", "", EmbreeQuality::Low, /*robust=*/false, /*by_default=*/false},
+    {"embree:medium", "", EmbreeQuality::Medium, /*robust=*/false, /*by_default=*/false},
 };
 constexpr EmbreeVariant kBuilds[] = {
     {"embree:low", "", EmbreeQuality::Low},

@@ -18,9 +18,10 @@ struct EmbreeVariant {
     const char* config;  ///< of its device
     EmbreeQuality quality = EmbreeQuality::High;
     bool robust = false;
+    bool by_default = true;  ///< compared where nothing is said about peers
 };
 
-/// Those whose rays are compared.
+/// Those whose rays are compared: of high quality, and of low and medium where they are asked for.
 std::span<const EmbreeVariant> embree_variants();
 /// Those whose builds are compared: low, medium, high.
 std::span<const EmbreeVariant> embree_builds();

@@ -52,6 +52,9 @@ void compare(std::span<PeerRow> rows) {
             row.best_peer = best->contestant;
             row.ratio = ratio_of_medians(best->ms, row.ms);
         }
+        for (const PeerRow& peer : rows)
+            if (peer.is_peer())
+                row.over_peers.emplace_back(peer.contestant, median_of(peer.ms) / median_of(row.ms));
         const auto fast = std::ranges::find_if(rows, [&](const PeerRow& other) {
             return other.contestant == row.contestant && other.mode == "fast";
         });
@@ -176,9 +179,37 @@ std::vector<RatioSummary> summarize(std::span<const PeerRow> rows) {
         std::string contestant = row.contestant + ", " + row.mode + ", " + std::to_string(row.threads) +
                                  (row.threads == 1 ? " thread" : " threads");
         if (row.rays_kind == kRayKinds[3]) contestant += ", packets";
-        cells.push_back({std::move(contestant), file_of(row.scene) + " " + row.rays_kind, row.ratio.value});
+        cells.push_back({std::move(contestant), file_of(row.scene) + " " + row.rays_kind, row.ratio.value,
+                         row.over_fast, row.errors.wrong()});
     }
     return summarize(cells);
+}
+
+std::vector<ReportRow> ratio_table(std::span<const PeerRow> rows) {
+    std::vector<ReportRow> table;
+    std::vector<const PeerRow*> firsts;  // of each line of the table
+    const auto name_of = [](const PeerRow& row) {
+        return row.contestant.substr(0, row.contestant.find(" pack"));
+    };
+    for (const PeerRow& row : rows) {
+        const auto is_own = [&](const PeerRow* first) {
+            return first->scene == row.scene && first->threads == row.threads && first->mode == row.mode &&
+                   first->contestant == name_of(row);
+        };
+        const auto line = static_cast<size_t>(std::ranges::find_if(firsts, is_own) - firsts.begin());
+        if (line == firsts.size()) {
+            firsts.push_back(&row);
+            table.push_back(ReportRow()
+                                .set("scene", file_of(row.scene))
+                                .set("threads", static_cast<uint64_t>(row.threads))
+                                .set("contestant", name_of(row))
+                                .set("mode", row.mode)
+                                .set("build_ms", row.build_ms)
+                                .set("bytes", row.bytes));
+        }
+        table[line].set(row.rays_kind, row.ratio.value);
+    }
+    return table;
 }
 
 ReportRow report_row(const PeerRow& row) {
@@ -187,7 +218,7 @@ ReportRow report_row(const PeerRow& row) {
     if (!row.recipe.empty()) cells.set("recipe", row.recipe).set("mode", row.mode);
     const double median = median_of(row.ms);
     const double rate = row.mrays_per_s();
-    return cells.set("rays_kind", row.rays_kind)
+    cells.set("rays_kind", row.rays_kind)
         .set("threads", static_cast<uint64_t>(row.threads))
         .set("triangles", row.triangles)
         .set("build_ms", row.build_ms)
@@ -207,6 +238,9 @@ ReportRow report_row(const PeerRow& row) {
         .set("wrong_hits", row.errors.wrong_hits)
         .set("ties", row.errors.ties)
         .set("times_refused", row.refused);
+    for (const auto& [peer, ratio] : row.over_peers)
+        cells.set("rate_over_" + peer.substr(peer.find(':') + 1), ratio);
+    return cells;
 }
 
 ReportRow short_row(const PeerRow& row) {
@@ -236,7 +270,10 @@ ReportRow report_row(const RatioSummary& summary) {
         .set("worst", summary.worst)
         .set("worst_cell", summary.worst_cell)
         .set("under_0.9", summary.under_09)
-        .set("under_1.2", summary.under_12);
+        .set("under_1.2", summary.under_12)
+        .set("over_fast", summary.over_fast)
+        .set("worst_over_fast", summary.worst_over_fast)
+        .set("wrong", summary.wrong);
 }
 
 }  // namespace boxwood::bench

@@ -48,8 +48,9 @@ struct PeerRow {
     uint64_t hits_hash = 0;
     uint64_t disputed = 0;  ///< rays of the cell that contestants answer differently
     PeerErrors errors;
-    std::string best_peer;   ///< of the cell
-    Interval ratio;          ///< rate over the best peer's; NaN where there is none
+    std::string best_peer;  ///< of the cell
+    Interval ratio;         ///< rate over the best peer's; NaN where there is none
+    std::vector<std::pair<std::string, double>> over_peers;  ///< rate over that of each peer of the cell
     double over_fast = 0.0;  ///< exact mode: its time over fast mode's; otherwise NaN
 
     bool is_peer() const { return recipe.empty(); }
@@ -71,6 +72,10 @@ std::vector<PeerRow> run_peers(std::shared_ptr<const Scene> scene, const PeerSet
 /// Geometric mean, worst cell: for each contestant of Boxwood in each mode and number of threads; packets
 /// apart.
 std::vector<RatioSummary> summarize(std::span<const PeerRow> rows);
+
+/// The ratios again, crosswise: a row for each scene, number of threads and contestant, a column for each
+/// kind of rays.
+std::vector<ReportRow> ratio_table(std::span<const PeerRow> rows);
 
 /// With the keys of the design.
 ReportRow report_row(const PeerRow& row);

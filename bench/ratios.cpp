@@ -12,6 +12,36 @@ namespace boxwood::bench {
 namespace {
 constexpr size_t kResamples = 500;
 constexpr double kOutside = 0.025;  ///< share of the resamples on each side of the interval
+
+double geometric_mean(std::span<const double> values) {
+    double sum = 0.0;
+    for (const double value : values) sum += std::log(value);
+    return std::exp(sum / static_cast<double>(values.size()));  // NaN for none
+}
+
+RatioSummary summary_of(const std::string& contestant, std::span<const RatioCell> cells) {
+    RatioSummary summary;
+    summary.contestant = contestant;
+    std::vector<double> ratios, over_fast;
+    for (const RatioCell& cell : cells) {
+        if (cell.contestant != contestant || !(cell.ratio > 0.0)) continue;
+        if (ratios.empty() || cell.ratio < summary.worst) {
+            summary.worst = cell.ratio;
+            summary.worst_cell = cell.cell;
+        }
+        ratios.push_back(cell.ratio);
+        if (cell.over_fast > 0.0) over_fast.push_back(cell.over_fast);
+        summary.wrong += cell.wrong;
+    }
+    summary.cells = ratios.size();
+    summary.geometric_mean = geometric_mean(ratios);
+    summary.under_09 = static_cast<uint64_t>(std::ranges::count_if(ratios, [](double r) { return r < 0.9; }));
+    summary.under_12 = static_cast<uint64_t>(std::ranges::count_if(ratios, [](double r) { return r < 1.2; }));
+    summary.over_fast = geometric_mean(over_fast);
+    summary.worst_over_fast = over_fast.empty() ? summary.over_fast : std::ranges::max(over_fast);
+    return summary;
+}
+
 }  // namespace
 
 Interval ratio_of_medians(std::span<const double> above, std::span<const double> below) {
@@ -39,24 +69,9 @@ std::vector<RatioSummary> summarize(std::span<const RatioCell> cells) {
     std::vector<RatioSummary> summaries;
     for (const RatioCell& cell : cells) {
         if (!(cell.ratio > 0.0)) continue;
-        auto own = std::ranges::find(summaries, cell.contestant, &RatioSummary::contestant);
-        if (own == summaries.end()) {
-            RatioSummary summary;
-            summary.contestant = cell.contestant;
-            summary.worst = std::numeric_limits<double>::infinity();
-            own = summaries.insert(summaries.end(), std::move(summary));
-        }
-        ++own->cells;
-        own->geometric_mean += std::log(cell.ratio);  // the sum so far
-        own->under_09 += cell.ratio < 0.9 ? 1 : 0;
-        own->under_12 += cell.ratio < 1.2 ? 1 : 0;
-        if (cell.ratio < own->worst) {
-            own->worst = cell.ratio;
-            own->worst_cell = cell.cell;
-        }
+        const auto known = std::ranges::find(summaries, cell.contestant, &RatioSummary::contestant);
+        if (known == summaries.end()) summaries.push_back(summary_of(cell.contestant, cells));
     }
-    for (RatioSummary& summary : summaries)
-        summary.geometric_mean = std::exp(summary.geometric_mean / static_cast<double>(summary.cells));
     return summaries;
 }
 

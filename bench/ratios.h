@@ -23,6 +23,8 @@ struct RatioCell {
     std::string contestant;
     std::string cell;  ///< "dragon.glb diffuse"
     double ratio = 0.0;
+    double over_fast = 0.0;  ///< exact mode: its time over fast mode's; NaN where not known
+    uint64_t wrong = 0;      ///< answers
 };
 
 /// All cells of one contestant.
@@ -33,6 +35,9 @@ struct RatioSummary {
     double worst = 0.0;
     std::string worst_cell;
     uint64_t under_09 = 0, under_12 = 0;  ///< cells with a ratio below 0.9, below 1.2
+    double over_fast = 0.0;               ///< geometric mean; NaN where no cell has it
+    double worst_over_fast = 0.0;
+    uint64_t wrong = 0;
 };
 
 /// In the order in which contestants first occur; cells whose ratio is NaN are left out.

@@ -57,13 +57,22 @@ TEST(Ratios, TheRatioIsThatOfTheMediansAndItsIntervalThatOfRoundsDrawnAgain) {
 
 TEST(Ratios, ASummaryHasTheGeometricMeanAndTheWorstCell) {
     const double nan = std::nan("");
-    const std::vector<RatioCell> cells{{"a", "bunny primary", 2.0},   {"b", "bunny primary", 0.9},
-                                       {"a", "bunny diffuse", 0.25},  {"a", "dragon primary", 1.1},
-                                       {"a", "dragon diffuse", 1.2},  {"a", "dragon shadow", nan},
-                                       {"b", "dragon primary", 0.899}};
+    std::vector<RatioCell> cells{{"a", "bunny primary", 2.0},   {"b", "bunny primary", 0.9},
+                                 {"a", "bunny diffuse", 0.25},  {"a", "dragon primary", 1.1},
+                                 {"a", "dragon diffuse", 1.2},  {"a", "dragon shadow", nan},
+                                 {"b", "dragon primary", 0.899}};
+    cells[0].over_fast = 1.0;
+    cells[2].over_fast = 1.21;
+    cells[3].over_fast = nan;
+    cells[0].wrong = 2;
+    cells[4].wrong = 3;
     const std::vector<RatioSummary> summaries = summarize(cells);
     ASSERT_EQ(summaries.size(), 2u);
     EXPECT_EQ(summaries[0].contestant, "a");
+    EXPECT_NEAR(summaries[0].over_fast, 1.1, 1e-12);
+    EXPECT_EQ(summaries[0].worst_over_fast, 1.21);
+    EXPECT_EQ(summaries[0].wrong, 5u);
+    EXPECT_TRUE(std::isnan(summaries[1].over_fast));
     EXPECT_EQ(summaries[0].cells, 4u);
     EXPECT_NEAR(summaries[0].geometric_mean, std::pow(2.0 * 0.25 * 1.1 * 1.2, 0.25), 1e-12);
     EXPECT_EQ(summaries[0].worst, 0.25);
@@ -73,13 +82,14 @@ TEST(Ratios, ASummaryHasTheGeometricMeanAndTheWorstCell) {
     EXPECT_EQ(summaries[1].under_09, 1u);  // 0.9 itself is not under it
 }
 
-/// A square of two triangles at z = 0 and the same once more, so that each hit is a tie.
-Mesh double_square() {
+/// A square of two triangles at z = 0, the same once more, so that each hit is a tie, and one below at z =
+/// -1.
+Mesh squares() {
     Mesh mesh;
-    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 2, 3}};
-    mesh.source_prim = {0, 1, 2, 3};
-    mesh.object = {0, 0, 0, 0};
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, -1}, {1, 0, -1}, {1, 1, -1}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 2, 3}, {4, 5, 6}};
+    mesh.source_prim = {0, 1, 2, 3, 4};
+    mesh.object = {0, 0, 0, 0, 0};
     mesh.objects = {{"square"}};
     return mesh;
 }
@@ -92,22 +102,23 @@ Ray down_at(float x, float y) {
 }
 
 TEST(PeerJudge, TellsMissesTiesWrongPrimitivesAndWrongBitsApart) {
-    const Mesh mesh = double_square();
+    const Mesh mesh = squares();
     const RaySet set{"test", Casting::Closest, {down_at(0.75f, 0.25f), down_at(2.0f, 0.5f)}};
     const float next = std::nextafter(3.0f, 4.0f);
-    std::vector<Answers> answers(6);
+    std::vector<Answers> answers(7);
     answers[0].hits = {Hit{3.0f, 0}, Hit{}};         // right
     answers[1].hits = {Hit{3.0f, 2}, Hit{}};         // the copy: a tie
     answers[2].hits = {Hit{3.0f, 1}, Hit{}};         // a triangle beside the ray
     answers[3].hits = {Hit{next, 0}, Hit{}};         // a bit of t
     answers[4].hits = {Hit{}, Hit{3.0f, 0}};         // a miss for a hit, a hit for a miss
     answers[5].hits = {Hit{3.0f, 2}, Hit{3.0f, 1}};  // the copy, and a hit for a miss
+    answers[6].hits = {Hit{4.0f, 4}, Hit{}};         // the one behind it
     const ScreenedOracle oracle(mesh);
     const std::vector<uint32_t> judged{0, 1};
-    const std::vector<Demand> nearest(6, Demand::Nearest), exact(6, Demand::Exact);
+    const std::vector<Demand> nearest(7, Demand::Nearest), exact(7, Demand::Exact);
     const std::vector<PeerErrors> of_peers = judge_answers(mesh, oracle, set, judged, answers, nearest);
     const std::vector<PeerErrors> of_ours = judge_answers(mesh, oracle, set, judged, answers, exact);
-    const std::vector<uint64_t> peers_wrong{0, 0, 1, 0, 2, 1}, ours_wrong{0, 1, 1, 1, 2, 2};
+    const std::vector<uint64_t> peers_wrong{0, 0, 1, 0, 2, 1, 1}, ours_wrong{0, 1, 1, 1, 2, 2, 1};
     for (size_t a = 0; a < answers.size(); ++a) {
         EXPECT_EQ(of_peers[a].judged, 2u);
         EXPECT_EQ(of_peers[a].wrong(), peers_wrong[a]) << a;
@@ -169,7 +180,8 @@ TEST(PeerRays, BouncesAndShadowsStartAtTheHitsOfTheCamera) {
 }
 
 TEST(PeerRays, TheLightHangsHalfWayToTheCeiling) {
-    Mesh mesh = double_square();
+    Mesh mesh = squares();
+    mesh.triangles.pop_back();
     for (Vec3& position : mesh.positions) position = Vec3(20.0f * (position - Vec3(0.5f, 0.5f, 0.0f)));
     for (Vec3& position : mesh.positions) position = {position.x, 4.0f, position.y};  // a ceiling at y = 4
     Camera camera;
@@ -185,7 +197,7 @@ TEST(PeerRays, TheLightHangsHalfWayToTheCeiling) {
 }
 
 TEST(PeerRays, ASideThatIsTurnedAwayFromTheLightHasNoShadowRay) {
-    const Mesh mesh = double_square();
+    const Mesh mesh = squares();
     const std::vector<Ray> rays{down_at(0.75f, 0.25f), down_at(2.0f, 2.0f)};
     const std::vector<Hit> hits{Hit{3.0f, 0}, Hit{}};
     EXPECT_EQ(shadow_rays(mesh, rays, hits, Vec3(0.5f, 0.5f, 2.0f)).size(), 1u);
@@ -325,6 +337,24 @@ TEST(Builds, ATransformOfAnotherFrameIsRefused) {
     const auto scene = scene_of("kitchen@frame=0");
     Task task;
     EXPECT_THROW(build_timed(parse_recipe("bvh-sweep-sah > refit"), scene->mesh, 1, task), Error);
+}
+
+TEST(Peers, TheTableOfRatiosHasOneColumnForEachKindOfRays) {
+    std::vector<PeerRow> rows(4);
+    for (size_t i = 0; i < rows.size(); ++i) {
+        rows[i].scene = "folder/bunny.obj";
+        rows[i].contestant = i % 2 == 0 ? "boxwood:x" : "embree:high";
+        rows[i].rays_kind = kRayKinds[i < 2 ? 0 : 3];
+        rows[i].ratio.value = static_cast<double>(i);
+    }
+    rows[3].contestant += " packets16";
+    const std::vector<ReportRow> table = ratio_table(rows);
+    ASSERT_EQ(table.size(), 2u);
+    EXPECT_EQ(std::get<std::string>(*table[1].find("scene")), "bunny.obj");
+    EXPECT_EQ(std::get<std::string>(*table[1].find("contestant")), "embree:high");
+    EXPECT_EQ(std::get<double>(*table[1].find("primary")), 1.0);
+    EXPECT_EQ(std::get<double>(*table[1].find("primary packets")), 3.0);
+    EXPECT_EQ(std::get<double>(*table[0].find("primary packets")), 2.0);
 }
 
 PeerRow sized(uint64_t triangles, double build_ms, uint64_t bytes, double ms) {

@@ -32,8 +32,14 @@ void print_tables(const std::vector<PeerRow>& rows, Report& report, const std::s
         shown.push_back(short_row(row));
     }
     for (const bench::RatioSummary& one : bench::summarize(rows)) summary.push_back(report_row(one));
+    const std::vector<ReportRow> ratios = ratio_table(rows);
     report.tables.emplace_back("summary", summary);
-    if (json != "-") std::printf("%s\n%s", to_table(shown).c_str(), to_table(summary).c_str());
+    report.tables.emplace_back("ratios", ratios);
+    report.tables.emplace_back("embree", std::vector{ReportRow().set("version", bench::embree_version())});
+    if (json != "-") {
+        std::printf("%s\n%s\n%s", to_table(shown).c_str(), to_table(ratios).c_str(),
+                    to_table(summary).c_str());
+    }
     if (!json.empty()) write_json(report, json);
 }
 

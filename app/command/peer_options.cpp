@@ -26,12 +26,16 @@ int thread_count_of(const std::string& text) {
 }  // namespace
 
 void PeerOptions::add_to(Options& options) {
-    std::string all;
-    for (const bench::EmbreeVariant& variant : all_)
+    std::string all, by_default;
+    for (const bench::EmbreeVariant& variant : all_) {
         all += (all.empty() ? "" : ", ") + std::string(variant.name);
-    options.texts(
-        "-p,--peer", "NAME", names_,
-        ((all.empty() ? "none in this build" : all) + "; may be given several times (default: all)").c_str());
+        if (!variant.by_default) continue;
+        by_default += (by_default.empty() ? "" : ", ") + std::string(variant.name);
+    }
+    const std::string help = all.empty() ? "there are none in this build"
+                                         : all + "; may be given several times (default: " +
+                                               (all == by_default ? "all" : by_default) + ")";
+    options.texts("-p,--peer", "NAME", names_, help.c_str());
     options.texts("--threads", "N", threads_,
                   "threads, or \"all\"; may be given several times (default: 1 and all)");
 }
@@ -47,7 +51,7 @@ std::vector<bench::EmbreeVariant> PeerOptions::peers() const {
     checked_words("--peer", names_, valid);
     std::vector<bench::EmbreeVariant> chosen;
     std::ranges::copy_if(all_, std::back_inserter(chosen), [&](const bench::EmbreeVariant& variant) {
-        return names_.empty() || std::ranges::find(names_, variant.name) != names_.end();
+        return names_.empty() ? variant.by_default : std::ranges::find(names_, variant.name) != names_.end();
     });
     return chosen;
 }
