@@ -22,6 +22,7 @@ struct RaySet {
     std::string kind;  ///< "diffuse"
     Casting casting = Casting::Closest;
     std::vector<Ray> rays;
+    std::vector<uint32_t> pixels{};  ///< Packets: y * width + x of each ray
 };
 
 /// One contestant's answers; of the two lists the one that the set's casting asks for, the other is empty.

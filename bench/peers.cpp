@@ -18,6 +18,7 @@ namespace boxwood::bench {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr uint32_t kTile = 16, kBlock = 4;  ///< pixels along a side: the renderer's tile, a packet
 /// Rounds over all contestants until the time is used.
 void time_rounds(std::span<const Contestant> contestants, const RaySet& set, int threads,
                  const PeerSettings& settings, std::span<PeerRow> rows, Task& task) {
@@ -107,16 +108,24 @@ std::vector<PeerRow> rows_for(const RaySet& set, const Scene& scene, std::span<c
     return rows;
 }
 
-/// Camera rays of a square picture, tile by tile.
-std::vector<Ray> in_tiles(std::span<const Ray> rows, size_t size) {
-    constexpr size_t kTile = 4;
-    std::vector<Ray> rays;
-    rays.reserve(rows.size());
-    for (size_t y = 0; y < size; y += kTile)
-        for (size_t x = 0; x < size; x += kTile)
-            for (size_t v = y; v < std::min(y + kTile, size); ++v)
-                for (size_t u = x; u < std::min(x + kTile, size); ++u) rays.push_back(rows[v * size + u]);
-    return rays;
+/// Appends the pixels of a square of a picture of `size` by `size` pixels, in blocks of 4 by 4.
+void append_tile(std::vector<uint32_t>& pixels, uint32_t left, uint32_t top, uint32_t side, uint32_t size) {
+    if (left >= size || top >= size) return;
+    if (side > kBlock) {
+        for (uint32_t y = 0; y < side; y += kBlock)
+            for (uint32_t x = 0; x < side; x += kBlock) append_tile(pixels, left + x, top + y, kBlock, size);
+        return;
+    }
+    for (uint32_t y = top; y < std::min(top + side, size); ++y)
+        for (uint32_t x = left; x < std::min(left + side, size); ++x) pixels.push_back(y * size + x);
+}
+
+/// Pixels of a square picture, tile by tile as the renderer takes them.
+std::vector<uint32_t> tile_order(uint32_t size) {
+    std::vector<uint32_t> pixels;
+    for (uint32_t y = 0; y < size; y += kTile)
+        for (uint32_t x = 0; x < size; x += kTile) append_tile(pixels, x, y, kTile, size);
+    return pixels;
 }
 
 /// Of a spec of a file its name without folders.
@@ -140,7 +149,9 @@ std::vector<RaySet> peer_rays(const Structure& structure, const Scene& scene, co
     sets.push_back({kRayKinds[0], Casting::Closest, primary});
     sets.push_back({kRayKinds[1], Casting::Closest, bounced_rays(scene.mesh, primary, hits)});
     sets.push_back({kRayKinds[2], Casting::Any, shadow_rays(scene.mesh, primary, hits, light)});
-    sets.push_back({kRayKinds[3], Casting::Packets, in_tiles(primary, size)});
+    RaySet packets{kRayKinds[3], Casting::Packets, {}, tile_order(static_cast<uint32_t>(size))};
+    for (const uint32_t pixel : packets.pixels) packets.rays.push_back(primary[pixel]);
+    sets.push_back(std::move(packets));
     std::erase_if(sets, [&](const RaySet& set) {
         const bool is_wanted =
             settings.kinds.empty() || std::ranges::find(settings.kinds, set.kind) != settings.kinds.end();
@@ -154,15 +165,16 @@ std::vector<PeerRow> run_peers(std::shared_ptr<const Scene> scene, const PeerSet
     std::vector<RaySet> sets;
     std::vector<PeerRow> rows;
     for (const int threads : settings.threads) {
+        const ContestantSettings how{threads, settings.builds, settings.with_fast_mode, settings.camera,
+                                     settings.size};
         std::vector<Contestant> contestants;
         for (const Recipe& recipe : settings.recipes) {
-            const std::optional<Structure> built = add_recipe(contestants, recipe, scene->mesh, threads,
-                                                              settings.builds, settings.with_fast_mode, task);
+            const std::optional<Structure> built = add_recipe(contestants, recipe, scene->mesh, how, task);
             if (!built) return {};
             if (sets.empty()) sets = peer_rays(*built, *scene, settings, task);
         }
         for (const EmbreeVariant& variant : settings.variants)
-            add_embree(contestants, variant, scene->mesh, threads, settings.builds);
+            add_embree(contestants, variant, scene->mesh, how);
         for (const RaySet& set : sets) {
             std::vector<PeerRow> part = rows_for(set, *scene, contestants, oracle, threads, settings, task);
             if (task.stopped()) return {};

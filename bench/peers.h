@@ -60,7 +60,7 @@ struct PeerRow {
 
 /// All rays of the scene, the same for every contestant: size^2 camera rays, one cosine-distributed bounce
 /// from each of their hits, a shadow ray from each of their hits that faces the light (light_by_camera), and
-/// the camera rays again in tiles of 4 x 4 for those who cast packets.
+/// the camera rays again in the renderer's tiles, in blocks of 4 x 4, for those who cast packets.
 std::vector<RaySet> peer_rays(const Structure& structure, const Scene& scene, const PeerSettings& settings,
                               Task& task);
 

@@ -10,8 +10,8 @@ def of_boxwood(row):
 
 
 def named(row):
-    """A contestant for a legend: one of Boxwood's by its recipe."""
-    return row["recipe"] if of_boxwood(row) else row["contestant"].replace(" packets16", "")
+    """A contestant for a legend: one of Boxwood's by its recipe, and whether it is the renderer."""
+    return row["contestant"].replace("boxwood:", "").replace(" packets16", "")
 
 
 def thread_words(count):
@@ -46,7 +46,7 @@ def bars_of_ratios(panel, rows, scenes, recipes):
     width = 0.8 / len(recipes)
     for place, recipe in enumerate(recipes):
         for mode in ("exact", "fast"):
-            own = [row for row in rows if row.get("recipe") == recipe and row.get("mode") == mode
+            own = [row for row in rows if of_boxwood(row) and named(row) == recipe and row["mode"] == mode
                    and row["ratio"] is not None]
             if not own:
                 continue
@@ -75,7 +75,7 @@ def draw_peers(pyplot, rows, folder):
         own = [row for row in rows if row["threads"] == threads]
         kinds = list(dict.fromkeys(row["rays_kind"] for row in own))
         scenes = list(dict.fromkeys(row["scene"] for row in own))
-        recipes = list(dict.fromkeys(row["recipe"] for row in own if of_boxwood(row)))
+        recipes = list(dict.fromkeys(named(row) for row in own if of_boxwood(row)))
         if not recipes:
             continue
         width = max(8.0, 1.5 + len(scenes) * (0.5 + 0.3 * len(recipes)))

@@ -17,13 +17,14 @@ constexpr const char* kFooter =
     "Rays: through the pixel centres; one cosine-distributed bounce from each hit; a shadow ray from each\n"
     "hit that faces the light, to a point light up and to the right of the eye, half way to what stands\n"
     "there, at most half the scene's diagonal far. One after the other in that order, t and primitive (or\n"
-    "one byte) written for each; \"primary packets\": in tiles of 4 x 4, Embree by packets of 16. Times:\n"
-    "one thread pinned to a core and its processor time, or all threads and the wall clock; rounds over\n"
-    "all contestants in random order after one that warms up; medians. ratio: rate over that of the best\n"
-    "peer in its cell, ratio_low and ratio_high hold 95 % of its bootstrap. wrong: of the rays judged, a\n"
-    "sample and every ray that contestants answer differently (disputed; at most 10 times the sample).\n"
-    "ties: another primitive at exactly the same t. Exits 1 if exact mode has a wrong answer, or if\n"
-    "answers changed between rounds. bench/plots.py draws the JSON.\n\n";
+    "one byte) written for each. \"primary packets\": in blocks of 4 x 4, Embree by packets of 16; RECIPE\n"
+    "renderer: the renderer, which makes the rays too. Times: one thread pinned to a core and its\n"
+    "processor time, or more and the wall clock; rounds over all contestants in random order after one\n"
+    "that warms up; medians. ratio: rate over that of the best peer in its cell, ratio_low and ratio_high\n"
+    "hold 95 % of its bootstrap. wrong: of the rays judged, a sample and every ray that contestants answer\n"
+    "differently (disputed; at most 10 times the sample). ties: another primitive at exactly the same t.\n"
+    "Exits 1 if exact mode has a wrong answer, or if answers changed between rounds. bench/plots.py draws\n"
+    "the JSON.\n\n";
 
 void print_tables(const std::vector<PeerRow>& rows, Report& report, const std::string& json) {
     std::vector<ReportRow> shown, summary;
