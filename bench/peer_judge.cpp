@@ -63,8 +63,7 @@ std::vector<uint32_t> rays_to_judge(std::span<const Answers> answers, size_t ray
     for (const uint32_t k : even_sample(disputed.size(), kDisputedPerSample * sample_count))
         judged.push_back(disputed[k]);
     std::ranges::sort(judged);
-    const auto rest = std::ranges::unique(judged);
-    judged.erase(rest.begin(), rest.end());
+    judged.erase(std::unique(judged.begin(), judged.end()), judged.end());
     return judged;
 }
 

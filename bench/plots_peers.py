@@ -43,8 +43,9 @@ def save(pyplot, figure, axes, path, columns=3):
 
 def bars_of_ratios(panel, rows, scenes, recipes):
     """Bars of Boxwood's exact mode, marks of its fast mode and of the peers."""
-    width = 0.8 / len(recipes)
-    for place, recipe in enumerate(recipes):
+    shown = [recipe for recipe in recipes if any(named(row) == recipe for row in rows)]
+    width = 0.8 / len(shown)
+    for place, recipe in enumerate(shown):
         for mode in ("exact", "fast"):
             own = [row for row in rows if of_boxwood(row) and named(row) == recipe and row["mode"] == mode
                    and row["ratio"] is not None]
@@ -55,7 +56,8 @@ def bars_of_ratios(panel, rows, scenes, recipes):
             if mode == "exact":
                 spread = [[row["ratio"] - row["ratio_low"] for row in own],
                           [row["ratio_high"] - row["ratio"] for row in own]]
-                panel.bar(x, y, width * 0.92, color=f"C{place % 10}", label=f"{recipe}, exact")
+                panel.bar(x, y, width * 0.92, color=f"C{recipes.index(recipe) % 10}",
+                          label=f"{recipe}, exact")
                 panel.errorbar(x, y, yerr=[[max(part, 0.0) for part in side] for side in spread],
                                fmt="none", ecolor="#222222", elinewidth=1.0, capsize=2)
             else:
