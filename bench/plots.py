@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""Draws what `boxwood bench error`, `amortize` and `refit` measured: the files of --json FILE.
+"""Draws what the suites of `boxwood bench` measured: the files of --json FILE.
 
     bench/plots.py FILE... -o FOLDER
 
 Pictures, each where the rows have what it needs:
     amortize-SCENE.png build plus trace against rays, and what share of the best rate that is, by total time
     refit-SCENE.png    refit against rebuild by frame: times, SAH cost, rays per second
+    peers-THREADS.png  rays per second over the best Embree variant's, by scene and kind of rays
+    builds-SCENE.png   what builds take, beside those of Embree
+    scale-THREADS.png  build, bytes and rays per second of one terrain in growing sizes
     error-speed.png    rays per second against largest error and wrong answers, with the Pareto front
     error-time.png     build time + N rays against largest error
     error-bytes.png    bytes against largest error
@@ -21,6 +24,8 @@ import json
 import math
 import os
 import sys
+
+import plots_peers
 
 COLORS = {"exact": "#0072b2", "fast": "#d55e00", "double": "#009e73"}  # told apart by all kinds of eyes
 MARKERS = "osD^vP*Xhd<>p"
@@ -324,17 +329,17 @@ def main():
     from matplotlib import pyplot
     rows = read_rows(arguments.files)
     errors = error_rows(rows.get("bench error", []))
-    amortized, refits = rows.get("bench amortize", []), rows.get("bench refit", [])
-    if not errors and not amortized and not refits:
-        print("plots.py: no rows of `boxwood bench error`, `amortize` or `refit` in the files", file=sys.stderr)
+    suites = {"bench amortize": draw_amortize, "bench refit": draw_refit, "bench peers": plots_peers.draw_peers,
+              "bench builds": plots_peers.draw_builds, "bench scale": plots_peers.draw_scale}
+    if not errors and not any(rows.get(suite) for suite in suites):
+        print("plots.py: no rows of a suite that it draws in the files", file=sys.stderr)
         return 3
     os.makedirs(arguments.output, exist_ok=True)
     if errors:
         Plots(pyplot, errors, arguments.output).draw()
-    if amortized:
-        draw_amortize(pyplot, amortized, arguments.output)
-    if refits:
-        draw_refit(pyplot, refits, arguments.output)
+    for suite, draw in suites.items():
+        if rows.get(suite):
+            draw(pyplot, rows[suite], arguments.output)
     return 0
 
 

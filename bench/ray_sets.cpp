@@ -58,6 +58,45 @@ std::vector<Ray> diffuse_rays(const Structure& structure, const Mesh& mesh, std:
     return rays;
 }
 
+std::vector<Ray> bounced_rays(const Mesh& mesh, std::span<const Ray> rays, std::span<const Hit> hits) {
+    std::vector<Ray> bounced;
+    for (size_t i = 0; i < rays.size(); ++i) {
+        if (!hits[i].is_hit()) continue;
+        bounced.push_back(
+            bounce(mesh, rays[i], hits[i], sequence_point(static_cast<uint32_t>(i), 0, /*bounce=*/1)));
+    }
+    return bounced;
+}
+
+std::vector<Ray> shadow_rays(const Mesh& mesh, std::span<const Ray> rays, std::span<const Hit> hits,
+                             const Vec3& light) {
+    std::vector<Ray> shadows;
+    for (size_t i = 0; i < rays.size(); ++i) {
+        if (!hits[i].is_hit()) continue;
+        const DVec3 normal =
+            facing_normal(mesh.triangle(hits[i].prim), glm::normalize(DVec3(rays[i].direction)));
+        Ray ray = leaving_ray(rays[i], hits[i], normal, normal);
+        const DVec3 to_light = DVec3(light) - DVec3(ray.origin);
+        if (!(glm::dot(normal, to_light) > 0.0)) continue;
+        ray.direction = Vec3(to_light);
+        ray.t_max = 1.0f;
+        shadows.push_back(ray);
+    }
+    return shadows;
+}
+
+Vec3 light_by_camera(const Camera& camera, const Structure& structure, const Mesh& mesh) {
+    const CameraFrame frame = camera_frame(camera, 1.0);
+    const DVec3 way = glm::normalize(frame.up + 0.5 * frame.right);
+    Ray ray;
+    ray.origin = camera.eye;
+    ray.direction = Vec3(way);
+    Hit hit;
+    structure.closest_hits(mesh, std::span(&ray, 1), std::span(&hit, 1), Mode::Exact, Task{});
+    const double diagonal = glm::length(DVec3(mesh.bounds().extent()));
+    return Vec3(frame.eye + way * (0.5 * std::min(diagonal, static_cast<double>(hit.t))));
+}
+
 uint64_t hash_of(std::span<const Ray> rays) {
     Hasher hasher;
     for (const Ray& ray : rays) {
@@ -75,6 +114,12 @@ uint64_t hash_of(std::span<const Hit> hits) {
         hasher.add(hit.t);
         hasher.add(hit.prim);
     }
+    return hasher.value();
+}
+
+uint64_t hash_of(std::span<const uint8_t> occluded) {
+    Hasher hasher;
+    for (const uint8_t one : occluded) hasher.add(uint32_t{one});
     return hasher.value();
 }
 

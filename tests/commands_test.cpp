@@ -8,6 +8,7 @@
 #include <iterator>
 #include <string>
 
+#include "app/command/peer_options.h"
 #include "core/render/png.h"
 #include "support/temporary_folder.h"
 
@@ -247,6 +248,42 @@ TEST_F(Program, BenchAmortizeSaysWhoWinsForEachDecadeOfRays) {
     ASSERT_EQ(json["winners"].size(), 14u);
     EXPECT_EQ(json["winners"][0]["rays"], 10000);
     EXPECT_EQ(json["winners"][6]["rays"], 10000000000);
+}
+
+TEST_F(Program, BenchPeersPrintsRowsAndASummary) {
+    const Ended result = run(
+        "bench peers -s cornell -r bvh-sweep-sah --size 16 --rounds 2 --seconds 0 --sample 20 --threads 1 "
+        "-k primary -k shadow -p embree:high --json -");
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    const Json json = Json::parse(result.output);
+    const bool has_peers = result.error.find("libembree-dev") == std::string::npos;
+    ASSERT_EQ(json["rows"].size(), has_peers ? 6u : 4u);
+    EXPECT_EQ(json["rows"][0]["contestant"], "boxwood:bvh-sweep-sah");
+    EXPECT_EQ(json["rows"][0]["ratio"].is_number(), has_peers);
+    EXPECT_EQ(json["summary"].size(), has_peers ? 2u : 0u);
+    EXPECT_EQ(json["rows"].back()["rays_kind"], "shadow");
+    expect_refusal("bench peers -k difuse", 2, "did you mean diffuse?");
+    expect_refusal("bench peers --threads many", 2, "or \"all\"");
+    if (has_peers) expect_refusal("bench peers -p embree:hgih", 2, "did you mean embree:high?");
+}
+
+TEST(PeerOptions, WithoutPeersOneSentenceSaysSo) {
+    EXPECT_EQ(missing_peers_note(true), "");
+    EXPECT_NE(missing_peers_note(false).find("libembree-dev"), std::string::npos);
+}
+
+TEST_F(Program, BenchBuildsAndScaleRun) {
+    const Ended builds = run("bench builds -s cornell -r bvh-sweep-sah --rounds 1 --threads 1 --json -");
+    ASSERT_EQ(builds.exit_code, 0) << builds.error;
+    EXPECT_EQ(Json::parse(builds.output)["rows"][0]["recipe"], "bvh-sweep-sah");
+    const Ended scale =
+        run("bench scale -n 1k -n 2k -n 1M --most 2k -r bvh-sweep-sah -p embree:high --threads 1 --size 16 "
+            "--rounds 1 --seconds 0 --builds 1 --json -");
+    ASSERT_EQ(scale.exit_code, 0) << scale.error;
+    const Json json = Json::parse(scale.output);
+    EXPECT_EQ(json["scene"], Json({"terrain@tris=1k", "terrain@tris=2k"}));
+    EXPECT_EQ(json["summary"][0]["most_triangles"], json["rows"].back()["triangles"]);
+    expect_refusal("bench scale --most all", 2, "a number of triangles");
 }
 
 TEST_F(Program, BenchRefitNeedsAnAnimatedSceneAndWhatCanBeRefitted) {

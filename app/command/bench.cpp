@@ -11,10 +11,14 @@ namespace {
 /// One suite of measurements, with options of its own.
 constexpr Command kSuites[] = {
     {"amortize", "from how many rays on a better structure pays for its build", run_bench_amortize},
+    {"builds", "what builds take, in turns with those of Embree", run_bench_builds},
     {"error", "run time against error: both modes and plain double precision", run_bench_error},
     {"interact", "how quickly the program answers", run_bench_interact},
     {"lecture", "the lecture's comparison of structures: memory, build, rays", run_bench_lecture},
+    {"peers", "recipes side by side with Embree: rays per second, build, bytes, wrong answers",
+     run_bench_peers},
     {"refit", "refit against rebuild, by frame of an animated scene", run_bench_refit},
+    {"scale", "build, bytes and rays per second of one terrain in growing sizes", run_bench_scale},
 };
 
 void print_help() {

@@ -26,10 +26,13 @@ ExitCode run_program(Arguments arguments);
 
 ExitCode run_bench(Arguments arguments);
 ExitCode run_bench_amortize(Arguments arguments);
+ExitCode run_bench_builds(Arguments arguments);
 ExitCode run_bench_error(Arguments arguments);
 ExitCode run_bench_interact(Arguments arguments);
 ExitCode run_bench_lecture(Arguments arguments);
+ExitCode run_bench_peers(Arguments arguments);
 ExitCode run_bench_refit(Arguments arguments);
+ExitCode run_bench_scale(Arguments arguments);
 ExitCode run_cast(Arguments arguments);
 ExitCode run_check(Arguments arguments);
 ExitCode run_list(Arguments arguments);
