@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/structure/structure.h"
@@ -27,6 +29,23 @@ struct alignas(32) TrianglePack {
     }
 };
 static_assert(sizeof(TrianglePack) == 160);
+
+/// For arrays that are filled in parallel: their elements are not initialised.
+template <class T>
+struct UninitializedAllocator : std::allocator<T> {
+    template <class U>
+    struct rebind {
+        using other = UninitializedAllocator<U>;
+    };
+    template <class U, class... Args>
+    void construct(U* place, Args&&... args) {
+        if constexpr (sizeof...(Args) == 0) {
+            ::new (static_cast<void*>(place)) U;
+        } else {
+            ::new (static_cast<void*>(place)) U(std::forward<Args>(args)...);
+        }
+    }
+};
 
 /// Packs that hold so many triangles.
 constexpr uint32_t pack_count(uint32_t triangle_count) {
@@ -97,7 +116,7 @@ struct WideBvh {
     static_assert(sizeof(Node) == (Width == 4 ? 128 : 256));
 
     std::vector<Node> nodes;
-    std::vector<TrianglePack> packs;
+    std::vector<TrianglePack, UninitializedAllocator<TrianglePack>> packs;
     uint32_t leaf_count = 0;
 
     template <Mode mode, class Counter>
