@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <new>
+#include <utility>
 #include <vector>
 
 #ifdef __linux__
@@ -12,7 +13,9 @@
 namespace boxwood {
 
 /// Memory in pages of 2 MiB where the system has them: arrays of many megabytes that are read here and there
-/// then need few entries of the translation buffer, and few page faults while they are written first.
+/// then need few entries of the translation buffer, and few page faults while they are written first. New
+/// elements are default-initialised (those of plain types not at all): the threads that fill them touch them
+/// first.
 template <class T>
 struct LargePageAllocator {
     using value_type = T;
@@ -32,6 +35,14 @@ struct LargePageAllocator {
         return static_cast<T*>(memory);
     }
     void deallocate(T* memory, size_t count) { ::operator delete(memory, alignment(count * sizeof(T))); }
+    template <class U, class... Arguments>
+    void construct(U* place, Arguments&&... arguments) {
+        if constexpr (sizeof...(Arguments) == 0) {
+            ::new (static_cast<void*>(place)) U;
+        } else {
+            ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+        }
+    }
     bool operator==(const LargePageAllocator&) const = default;
 
 private:

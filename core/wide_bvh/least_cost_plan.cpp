@@ -24,7 +24,7 @@ LeastCostPlan<Width>::LeastCostPlan(const Bvh2& bvh, const PrimCounts& counts, c
       costs_(costs),
       task_(task),
       root_area_(half_area(bvh.nodes[0])),
-      choices_(bvh.nodes.size()) {
+      choices_(std::make_unique_for_overwrite<Choice[]>(bvh.nodes.size() / 2 + 1)) {
     solve(0, 0);
 }
 
@@ -54,7 +54,8 @@ typename LeastCostPlan<Width>::Costs LeastCostPlan<Width>::choose(uint32_t node,
                                                                   const Costs& right) {
     // D(n, j) at [j - 1] first; where j is more than both subtrees have a use for, that of the largest such.
     std::array<double, Width> best;
-    Choice& choice = choices_[node];
+    Choice& choice = choice_of(node);
+    choice.fill(0);
     const uint32_t useful = std::min(left.most + right.most, Width);
     for (uint32_t j = 2; j <= useful; ++j) {
         best[j - 1] = std::numeric_limits<double>::infinity();
@@ -106,7 +107,7 @@ WideParts<Width> LeastCostPlan<Width>::children_of(uint32_t node) const {
 template <uint32_t Width>
 void LeastCostPlan<Width>::add_children(uint32_t node, uint32_t most, WideParts<Width>& children) const {
     if (bvh_.nodes[node].is_leaf()) return children.add({node, /*is_leaf=*/true});
-    const Choice& choice = choices_[node];
+    const Choice& choice = choice_of(node);
     while (most > 1 && choice[most - 1] == 0) --most;
     if (most == 1) return children.add({node, choice[0] != 0});
     const uint32_t left = choice[most - 1];

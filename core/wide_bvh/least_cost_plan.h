@@ -35,6 +35,7 @@ private:
     Costs choose(uint32_t node, const Costs& left, const Costs& right);
     double leaf_cost(uint32_t node, uint32_t prim_count) const;
     double probability(uint32_t node) const;
+    Choice& choice_of(uint32_t inner) const { return choices_[bvh_.nodes[inner].first / 2]; }
     void add_children(uint32_t node, uint32_t most, WideParts<Width>& children) const;
 
     const Bvh2& bvh_;
@@ -42,7 +43,8 @@ private:
     WideCosts costs_;
     const Task& task_;
     double root_area_;
-    std::vector<Choice> choices_;  ///< of the inner nodes of the input
+    /// Of the inner nodes of the input, in the order of their children; not initialised.
+    std::unique_ptr<Choice[]> choices_;
 };
 
 }  // namespace boxwood
