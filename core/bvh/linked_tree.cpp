@@ -44,6 +44,11 @@ Box4 LinkedTree::box(uint32_t node) const {
 
 double LinkedTree::half_area(uint32_t node) const { return boxwood::half_area(box(node)); }
 
+double LinkedTree::inefficiency(uint32_t node) const {
+    const double area = half_area(node), parent_area = half_area(links_[node].parent);
+    return parent_area > area ? (parent_area - area) * (parent_area / area) : 0.0;
+}
+
 /// Meister, Bittner 2018, section 3.1: the tree is searched from the node's parent upwards, on each level the
 /// subtree beside the path downwards. `saved` is what taking the node out saves, less what putting it below
 /// costs on the way down to a place.

@@ -27,7 +27,9 @@ public:
     std::optional<double> gain(uint32_t node, uint32_t to) const;
     /// Requires gain(node, to).
     void move(uint32_t node, uint32_t to);
-    double half_area(uint32_t node) const;
+    /// How promising it is to move the node: what taking it out may save at most right above it, its parent's
+    /// area less its own, and more so the smaller it is in comparison. 0 or more.
+    double inefficiency(uint32_t node) const;
     bool is_movable(uint32_t node) const { return node != 0 && links_[node].parent != 0; }
     /// Nodes in depth-first order; leaves of `source`, which the tree was made from.
     Bvh2 bvh(const Bvh2& source) const;
@@ -46,6 +48,7 @@ private:
     };
 
     Box4 box(uint32_t node) const;
+    double half_area(uint32_t node) const;
     uint32_t sibling(uint32_t node) const {
         const Node& parent = nodes_[links_[node].parent];
         return parent.left == node ? parent.right : parent.left;

@@ -19,18 +19,19 @@ double inner_area(const Bvh2& bvh) {
     return sum;
 }
 
-/// The movable nodes with the largest areas, of equal ones the lower ones.
-std::vector<uint32_t> largest_nodes(const LinkedTree& tree, uint32_t node_count, double share) {
+/// The movable nodes that are the most promising, of equal ones the lower ones.
+std::vector<uint32_t> promising_nodes(const LinkedTree& tree, uint32_t node_count, double share) {
     struct Candidate {
-        double area;
+        double inefficiency;
         uint32_t node;
         bool operator<(const Candidate& other) const {
-            return area > other.area || (area == other.area && node < other.node);
+            return inefficiency > other.inefficiency ||
+                   (inefficiency == other.inefficiency && node < other.node);
         }
     };
     std::vector<Candidate> candidates;
     for (uint32_t node = 1; node < node_count; ++node)
-        if (tree.is_movable(node)) candidates.push_back({tree.half_area(node), node});
+        if (tree.is_movable(node)) candidates.push_back({tree.inefficiency(node), node});
     const auto wanted = static_cast<size_t>(std::ceil(share * static_cast<double>(candidates.size())));
     const size_t count = std::min(wanted, candidates.size());
     std::nth_element(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count),
@@ -60,7 +61,7 @@ std::vector<LinkedTree::Move> find_moves(const LinkedTree& tree, const std::vect
 
 void Optimize::describe(ParamVisitor& v) {
     v.on_int("rounds", rounds, 1, 64, "times that nodes are taken out and put back, at most");
-    v.on_float("share", share, 0.001f, 1.0f, "of the nodes that a round tries, those with the largest areas");
+    v.on_float("share", share, 0.001f, 1.0f, "of the nodes that a round tries, the most promising ones");
 }
 
 Bvh2 Optimize::apply(const Mesh&, std::span<const PrimRef>, const Bvh2& input, Task& task) const {
@@ -72,7 +73,7 @@ Bvh2 Optimize::apply(const Mesh&, std::span<const PrimRef>, const Bvh2& input, T
     uint64_t move_count = 0, in_best_place = 0, overtaken = 0;
     task.total = static_cast<uint64_t>(double(share) * node_count) * static_cast<uint64_t>(rounds);
     for (int round = 0; round < rounds; ++round) {
-        const std::vector<uint32_t> nodes = largest_nodes(tree, node_count, double(share));
+        const std::vector<uint32_t> nodes = promising_nodes(tree, node_count, double(share));
         const std::vector<LinkedTree::Move> moves = find_moves(tree, nodes, task);
         if (task.stopped()) return {};
         in_best_place += nodes.size() - moves.size();
