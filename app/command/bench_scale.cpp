@@ -55,7 +55,6 @@ ExitCode run_bench_scale(Arguments arguments) {
     int rounds = 5;
     PeerOptions peer_options(bench::embree_variants());
     bench::PeerSettings settings;
-    settings.size = 512;
     settings.sample_count = 500;
     settings.seconds = 1.0;
     settings.builds = 3;
@@ -71,7 +70,7 @@ ExitCode run_bench_scale(Arguments arguments) {
     options.texts("-r,--recipe", "RECIPE", texts, "structure; may be given several times");
     peer_options.add_to(options);
     options.integer("--size", settings.size, 1, 16384,
-                    "the camera's picture, pixels along a side (default: 512)");
+                    "the camera's picture, pixels along a side (default: 1024)");
     options.integer("--rounds", rounds, 1, 1000000, "rounds, at least (default: 5)");
     options.real("--seconds", settings.seconds, 0.0, 1e6,
                  "time for the rounds of each kind of rays, at least (default: 1)");
