@@ -120,28 +120,28 @@ TEST_F(Picking, PerspectiveLinesArePickedWhereTheyAreSeen) {
 TEST(Marks, AHiddenNodeTakesWhatIsBelowAndTrianglesOfNoOtherLeaf) {
     const NodeList list = small_tree();
     ViewerState state;
-    EXPECT_TRUE(visible_parts(state, list, 3).is_whole());
-    state.hidden_nodes = {1};
-    Visibility seen = visible_parts(state, list, 3);
+    EXPECT_TRUE(visible_parts(state.side(), list, 3).is_whole());
+    state.side().hidden_nodes = {1};
+    Visibility seen = visible_parts(state.side(), list, 3);
     EXPECT_EQ(seen.nodes, (std::vector<uint8_t>{1, 0, 1, 1, 1}));
     EXPECT_EQ(seen.triangles, (std::vector<uint8_t>{0, 1, 1})) << "1 is in leaf 3 too";
-    state.hidden_nodes = {2};
-    seen = visible_parts(state, list, 3);
+    state.side().hidden_nodes = {2};
+    seen = visible_parts(state.side(), list, 3);
     EXPECT_EQ(seen.nodes, (std::vector<uint8_t>{1, 1, 0, 0, 0}));
     EXPECT_EQ(seen.triangles, (std::vector<uint8_t>{1, 1, 0}));
-    state.hidden_nodes = {99};
-    EXPECT_TRUE(visible_parts(state, list, 3).is_whole()) << "a node that does not exist";
+    state.side().hidden_nodes = {99};
+    EXPECT_TRUE(visible_parts(state.side(), list, 3).is_whole()) << "a node that does not exist";
 }
 
 TEST(Marks, AnIsolatedNodeIsShownWithWhatIsBelow) {
     const NodeList list = small_tree();
     ViewerState state;
-    state.isolated = 2;
-    Visibility seen = visible_parts(state, list, 3);
+    state.side().isolated = 2;
+    Visibility seen = visible_parts(state.side(), list, 3);
     EXPECT_EQ(seen.nodes, (std::vector<uint8_t>{0, 0, 1, 1, 1}));
     EXPECT_EQ(seen.triangles, (std::vector<uint8_t>{0, 1, 1}));
-    state.hidden_nodes = {3};
-    seen = visible_parts(state, list, 3);
+    state.side().hidden_nodes = {3};
+    seen = visible_parts(state.side(), list, 3);
     EXPECT_EQ(seen.nodes, (std::vector<uint8_t>{0, 0, 1, 0, 1}));
     EXPECT_EQ(seen.triangles, (std::vector<uint8_t>{0, 0, 0}));
     Visits visits;

@@ -48,7 +48,7 @@ Session unusual_session() {
     s.prim = 77;
     s.hidden_nodes = {5, 3};
     s.isolated = 2147483647;
-    s.side = SidePanel::Verify;
+    s.side_panel = SidePanel::Verify;
     s.verify_rays = 100000;
     s.traced = TracedView::Over;
     s.shading = Shading::HeatTests;

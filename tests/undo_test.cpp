@@ -7,7 +7,7 @@ namespace {
 
 ViewerState with_recipe(const char* recipe) {
     ViewerState state;
-    state.recipe = recipe;
+    state.side().recipe = recipe;
     return state;
 }
 

@@ -5,73 +5,51 @@
 #include <numeric>
 
 #include "app/viewer/level_report.h"
+#include "app/viewer/measures.h"
 #include "app/viewer/number_text.h"
 #include "app/viewer/panel_parts.h"
 
 namespace boxwood::panel {
 namespace {
 
-constexpr const char* kNoValue = "\u2013";
-
-void reference_rows(const Context& context, const Built& built) {
-    const size_t triangles = built.scene->mesh.triangle_count(), made = built.references->refs.size();
-    value_row(context, "triangles", grouped(triangles), "Triangles of the scene that structures see.");
-    value_row(context, "references made", grouped(made),
-              "Boxes that the references stage made; a leaf keeps each primitive once.");
-    const double added = static_cast<double>(made) - static_cast<double>(triangles);
-    value_row(context, "references added", percent_text(added, static_cast<double>(triangles)),
-              "(references made - triangles) / triangles. Lower is better for memory.");
-}
-
-uint64_t largest_leaf(const TreeStats& tree) {
-    return tree.leaf_sizes.empty() ? 0 : tree.leaf_sizes.size() - 1;
-}
-
-void tree_rows(const Context& context, const Built& built, const TreeStats& tree) {
-    value_row(context, "references in leaves", grouped(tree.references),
-              "References in all leaves, after duplicates of one primitive in a leaf were removed.\n" +
-                  grouped(context.input.shared_count) +
-                  " triangles of one reference are in several leaves (D shows them in blue).");
-    value_row(context, "nodes", grouped(tree.nodes), "Inner nodes and leaves.");
-    value_row(context, "leaves", grouped(tree.leaves),
-              "Leaves, " + grouped(tree.empty_leaves) + " of them empty; the largest holds " +
-                  grouped(largest_leaf(tree)) + " references.");
-    value_row(context, "levels", grouped(tree.levels.size()), "Levels; the root is level 0.");
-    value_row(context, "bytes", byte_text(built.structure.byte_count()),
-              "Memory of the structure that rays traverse.\nIts node list for this window: " +
-                  byte_text(built.levels->byte_count()) +
-                  "; on the GPU: " + byte_text(context.input.gpu_bytes) +
-                  ";\nstages kept for a return: " + byte_text(context.input.cache_bytes) + " of at most " +
-                  byte_text(context.input.cache_limit) + ".");
-    value_row(context, "SAH cost", number_text(tree.sah_cost),
-              "Expected cost of a random ray that meets the root's box, in triangle tests: the sum over all "
-              "nodes of (area / root area) x (1 for an inner node, the number of primitives for a leaf). "
-              "Lower is better.");
-    if (!context.state.show_times) return;
-    value_row(context, "build time", time_text(built.references_ms + built.build_ms),
-              "References " + time_text(built.references_ms) + ", builder and transforms " +
-                  time_text(built.build_ms) +
-                  ", as they took when they were run.\nFrom the request to this " +
-                  "picture: " + time_text(context.input.build_wait_ms) + ".");
-}
-
-void ray_rows(const Context& context) {
-    const TraceState& trace = context.input.trace;
-    const bool counted = trace.counted_rays > 0;
-    const double rays = static_cast<double>(trace.counted_rays);
-    const std::string hint =
-        context.state.traced == TracedView::Off ? " Shown with the ray-traced view (T)." : "";
-    if (context.state.show_times) {
-        value_row(context, "rays per second",
-                  trace.rays_per_second > 0.0 ? rate_text(trace.rays_per_second) : kNoValue,
-                  "Rays of the picture over the time spent on them, on all cores. Higher is better." + hint);
+/// Both sides beside each other; the better value in colour.
+void compare_table(const Context& context, const std::vector<MeasurePair>& pairs) {
+    constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit;
+    ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
+    if (ImGui::BeginTable("compare", 4, kFlags)) {
+        ImGui::TableSetupColumn("measure", ImGuiTableColumnFlags_WidthStretch);
+        for (const char* name : {"A", "B", "A \u2212 B"}) ImGui::TableSetupColumn(name);
+        ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+        for (const Side side : kSides) {
+            ImGui::TableSetColumnIndex(static_cast<int>(index_of(side)) + 1);
+            right_text(side_name(side));
+            tooltip(context, context.input.side(side).built != nullptr
+                                 ? print(context.input.side(side).built->recipe)
+                                 : "not built yet");
+        }
+        ImGui::TableSetColumnIndex(3);
+        right_text("A \u2212 B");
+        for (const MeasurePair& pair : pairs) {
+            const std::optional<Side> winner = pair.winner();
+            ImGui::TableNextRow();
+            ImGui::TableSetColumnIndex(0);
+            colored(context.colors.dim, pair.a.name);
+            tooltip(context, pair.a.tip);
+            const auto cell = [&](int column, const Measure& of, const std::optional<double>& value,
+                                  bool is_better) {
+                ImGui::TableSetColumnIndex(column);
+                if (is_better) ImGui::PushStyleColor(ImGuiCol_Text, im_color(context.colors.good));
+                right_text(measure_text(of.unit, value));
+                if (is_better) ImGui::PopStyleColor();
+                tooltip(context, of.tip);
+            };
+            cell(1, pair.a, pair.a.value, winner == Side::A);
+            cell(2, pair.b, pair.b.value, winner == Side::B);
+            cell(3, pair.a, pair.difference(), false);
+        }
+        ImGui::EndTable();
     }
-    value_row(context, "nodes per ray",
-              counted ? number_text(static_cast<double>(trace.counters.nodes) / rays) : kNoValue,
-              "Nodes visited by a primary ray, in the mean. Lower is better." + hint);
-    value_row(context, "tests per ray",
-              counted ? number_text(static_cast<double>(trace.counters.tests) / rays) : kNoValue,
-              "Primitives tested by a primary ray, in the mean. Lower is better." + hint);
+    ImGui::PopFont();
 }
 
 /// A cell as a number, to sort by.
@@ -130,12 +108,6 @@ std::vector<size_t> sorted_rows(const TreeStats& tree) {
     return order;
 }
 
-void right_text(const std::string& text) {
-    const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(free, 0.0f));
-    ImGui::TextUnformatted(text.c_str());
-}
-
 void level_row(const Context& context, const TreeStats& tree, size_t row, const LevelRange& shown) {
     ImGui::TableNextRow();
     const int level = static_cast<int>(row);
@@ -160,57 +132,49 @@ void level_row(const Context& context, const TreeStats& tree, size_t row, const 
 }  // namespace
 
 void measures_part(const Context& context) {
-    const Built* built = context.input.built;
+    const ViewerState& state = context.state;
     heading(context, "Measures");
-    if (built == nullptr) {
-        note(context, "No structure yet.");
+    if (!state.compares()) {
+        const std::vector<Measure> measures = measures_of(state, context.input, Side::A);
+        if (measures.empty()) note(context, "No structure yet.");
+        for (const Measure& of : measures)
+            value_row(context, of.name, measure_text(of.unit, of.value), of.tip);
         return;
     }
-    reference_rows(context, *built);
-    tree_rows(context, *built, *context.input.tree);
-    ray_rows(context);
+    const std::vector<MeasurePair> pairs = pairs_of(measures_of(state, context.input, Side::A),
+                                                    measures_of(state, context.input, Side::B));
+    if (pairs.empty()) {
+        note(context, "Not both structures yet.");
+        return;
+    }
+    const auto recipe = [&](Side side) { return print(context.input.side(side).built->recipe); };
+    copy_buttons(
+        context, "measures", [&] { return measures_tsv(pairs); }, [&] { return measures_markdown(pairs); },
+        [&] { return measures_json(pairs, recipe(Side::A), recipe(Side::B)); });
+    compare_table(context, pairs);
 }
 
 void side_tabs(const Context& context) {
-    constexpr std::array<const char*, 3> kNames{"Levels", "Node", "Verify"};
-    constexpr std::array<const char*, 3> kTips{
-        "What each level of the tree holds and costs.",
-        "The selected node: its numbers, its path, its triangles. Click a box to select its node.",
-        "Speed and wrong rays of both modes, on request, against rational arithmetic."};
+    const std::string of = of_side(context.state);
+    const Vec4& accent = context.colors.accent;
+    const std::array<Tab, 3> all{
+        {{"Levels" + of, "What each level of the tree holds and costs.", accent},
+         {"Node", "The selected node: its numbers, its path, its triangles. Click a box to select its node.",
+          accent},
+         {"Verify", "Speed and wrong rays of both modes, on request, against rational arithmetic.", accent}}};
     ImGui::Dummy({0.0f, 2.0f * context.scale});
-    ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[2]);
-    for (size_t i = 0; i < kNames.size(); ++i) {
-        const bool is_shown = context.state.side == static_cast<SidePanel>(i);
-        if (i > 0) ImGui::SameLine(0.0f, 18.0f * context.scale);
-        ImGui::PushStyleColor(ImGuiCol_Text, im_color(is_shown ? context.colors.text : context.colors.dim));
-        ImGui::TextUnformatted(kNames[i]);
-        ImGui::PopStyleColor();
-        if (ImGui::IsItemClicked()) context.state.side = static_cast<SidePanel>(i);
-        const ImVec2 lower = ImGui::GetItemRectMin(), upper = ImGui::GetItemRectMax();
-        if (is_shown || ImGui::IsItemHovered()) {
-            ImGui::GetWindowDrawList()->AddRectFilled(
-                {lower.x, upper.y + 1.0f * context.scale}, {upper.x, upper.y + 3.0f * context.scale},
-                im_packed(is_shown ? context.colors.accent : context.colors.dim));
-        }
-        ImGui::PopFont();
-        tooltip(context, kTips[i]);
-        ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[2]);
-    }
-    ImGui::PopFont();
+    const auto shown = static_cast<size_t>(context.state.side_panel);
+    if (const std::optional<size_t> chosen = tabs(context, all, shown))
+        context.state.side_panel = static_cast<SidePanel>(*chosen);
     ImGui::Separator();
 }
 
 void level_table_part(const Context& context) {
-    const Built* built = context.input.built;
-    if (built == nullptr) return;
-    const TreeStats& tree = *context.input.tree;
-    colored(context.colors.dim, "copy as");
-    for (const auto& [name, text] : {std::pair{"TSV", &level_tsv}, std::pair{"Markdown", &level_markdown},
-                                     std::pair{"JSON", &level_json}}) {
-        ImGui::SameLine();
-        if (ImGui::SmallButton(name)) context.actions.push_back(CopyText{text(tree)});
-        tooltip(context, std::string("Copies this table as ") + name + ".");
-    }
+    if (context.side.built == nullptr) return;
+    const TreeStats& tree = *context.side.tree;
+    copy_buttons(
+        context, "levels", [&] { return level_tsv(tree); }, [&] { return level_markdown(tree); },
+        [&] { return level_json(tree); });
     constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_Sortable | ImGuiTableFlags_ScrollY |
                                        ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH |
                                        ImGuiTableFlags_SizingStretchProp;

@@ -32,7 +32,7 @@ void right_panel(const panel::Context& context) {
     begin_fixed("right", context.layout.right);
     panel::measures_part(context);
     panel::side_tabs(context);
-    switch (context.state.side) {
+    switch (context.state.side_panel) {
         case SidePanel::Levels:
             panel::level_table_part(context);
             break;
@@ -52,13 +52,15 @@ std::vector<Action> edit(ViewerState& state, const PanelInput& input, const Fram
                          PanelMemory& memory) {
     std::vector<Action> actions;
     const panel::Context context{
-        state, input, layout, memory, actions, theme_colors(state.theme), state.interface_scale};
+        state,   input,  input.side(state.active_side()), layout,
+        memory,  actions, theme_colors(state.theme),       state.interface_scale};
     if (layout.left.width > 0.0f) {
         left_panel(context);
         right_panel(context);
         panel::status_line(context);
         panel::legends(context);
     }
+    panel::side_labels(context);
     panel::wrong_marks(context);
     panel::message_line(context);
     panel::work_line(context);
