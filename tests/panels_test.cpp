@@ -161,7 +161,8 @@ TEST_F(Panels, KeysAreTextWhileAFieldHasTheFocus) {
     EXPECT_TRUE(viewer_.state.show_boxes);
     EXPECT_FALSE(viewer_.state.show_keys);
     EXPECT_FALSE(viewer_.panel_memory.recipe_error.empty()) << "a '?' makes it no recipe";
-    EXPECT_EQ(viewer_.state.side().recipe, session().state.side().recipe) << "the recipe stays until the text is one";
+    EXPECT_EQ(viewer_.state.side().recipe, session().state.side().recipe)
+        << "the recipe stays until the text is one";
 }
 
 TEST_F(Panels, TheViewersActionsRunWithoutAWindow) {
@@ -287,11 +288,11 @@ TEST_F(Panels, ACancelledBuildKeepsWhatIsShown) {
 TEST_F(Panels, LayoutLeavesTheWholeFrameToTheViewWherePanelsAreHidden) {
     ViewerState state;
     state.show_panels = false;
-    EXPECT_EQ(make_layout(state).scene, (ViewRect{0.0f, 0.0f, 1280.0f, 720.0f}));
+    EXPECT_EQ(make_layout(state).sides[0].scene.part, (ViewRect{0.0f, 0.0f, 1280.0f, 720.0f}));
     state.traced = TracedView::Beside;
     const FrameLayout beside = make_layout(state);
-    EXPECT_EQ(beside.scene.width, beside.traced.width);
-    EXPECT_EQ(beside.traced.x + beside.traced.width, 1280.0f);
+    EXPECT_EQ(beside.sides[0].scene.part.width, beside.sides[0].traced.part.width);
+    EXPECT_EQ(beside.sides[0].traced.part.x + beside.sides[0].traced.part.width, 1280.0f);
     state.show_panels = true;
     state.width = 300;
     EXPECT_EQ(make_layout(state).left.width, 0.0f) << "no room for panels";

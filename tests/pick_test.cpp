@@ -43,7 +43,7 @@ PickPoint front(float x, float y, float surface_t = kNoSurface) {
 class Picking : public testing::Test {
 protected:
     std::vector<uint32_t> pick(const PickPoint& point) const {
-        const Visibility visibility = visible_parts(state_, levels_.list, 3);
+        const Visibility visibility = visible_parts(state_.side(), levels_.list, 3);
         return pick_nodes(state_, levels_, visibility, nullptr, point);
     }
     using Nodes = std::vector<uint32_t>;
@@ -71,7 +71,7 @@ TEST_F(Picking, OnlyWhatTheStateShowsIsPicked) {
     state_.show_empty = true;
     EXPECT_EQ(pick(front(175.0f, 100.0f)), (Nodes{4}));
     state_.levels = {0, 2};
-    state_.hidden_nodes = {2};
+    state_.side().hidden_nodes = {2};
     EXPECT_EQ(pick(front(175.0f, 100.0f)), (Nodes{0}));
 }
 

@@ -176,7 +176,7 @@ TEST_F(Selecting, VisitsOfThePictureAreTheSumOfItsRays) {
     viewer_.state.visit_rays = VisitRays::Picture;
     viewer_.wait();
     ASSERT_TRUE(viewer_.cast().visits);
-    const ViewRect view = make_layout(state()).scene;
+    const ViewRect view = make_layout(state()).side(Side::A).scene.rect;
     const int width = static_cast<int>(view.width), height = static_cast<int>(view.height);
     const std::vector<Ray> rays = picture_rays(viewer_.camera(), width, height);
     std::vector<Hit> hits(rays.size());

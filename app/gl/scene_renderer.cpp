@@ -123,8 +123,7 @@ void SceneRenderer::set_boxes(const LevelTable& levels, const BoxValues& values,
                                   outlines_of(levels, impl_->space));
 }
 
-void SceneRenderer::set_box_marks(const LevelTable& levels, std::span<const uint32_t> marks,
-                                  size_t set) {
+void SceneRenderer::set_box_marks(const LevelTable& levels, std::span<const uint32_t> marks, size_t set) {
     std::vector<uint32_t> in_order;
     if (!marks.empty()) {
         in_order.reserve(levels.order.size());
@@ -312,7 +311,8 @@ BoxCounts SceneRenderer::reference_box_counts(size_t set) const {
 
 uint64_t SceneRenderer::upload_count() const {
     uint64_t count = impl_->mesh.upload_count();
-    for (const Impl::Set& set : impl_->sets) count += set.nodes.upload_count() + set.references.upload_count();
+    for (const Impl::Set& set : impl_->sets)
+        count += set.nodes.upload_count() + set.references.upload_count();
     return count;
 }
 

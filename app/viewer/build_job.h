@@ -55,8 +55,8 @@ struct BuildProgress {
     double ms = 0.0;       ///< since the request
 };
 
-/// Opens scenes and runs recipes, A's before B's, in a thread of its own. Of several requests only the newest is answered: one
-/// that runs is stopped, one that waits is dropped. Called from one thread.
+/// Opens scenes and runs recipes, A's before B's, in a thread of its own. Of several requests only the newest
+/// is answered: one that runs is stopped, one that waits is dropped. Called from one thread.
 class BuildJob {
 public:
     explicit BuildJob(std::shared_ptr<StageCache> cache);
@@ -84,8 +84,8 @@ private:
     void say(const std::string& sentence);
 
     std::shared_ptr<StageCache> cache_;
-    std::shared_ptr<const Scene> scene_;  ///< the last one that was opened; only the thread touches it
-    std::string scene_spec_;              ///< as it was asked for
+    std::shared_ptr<const Scene> scene_;      ///< the last one that was opened; only the thread touches it
+    std::string scene_spec_;                  ///< as it was asked for
     std::map<std::string, SideResult> kept_;  ///< of the last answers over that scene, by recipe as asked for
 
     mutable std::mutex mutex_;

@@ -15,8 +15,8 @@ namespace boxwood {
 /// signed difference, and their rays per second, taken in turns. One thread.
 class CompareWork {
 public:
-    /// Makes the pictures anew where counts or settings differ from the last ones. Counts that are not known
-    /// or not of one size leave what was there.
+    /// Makes the pictures anew in the background where counts or settings differ from the last ones; what was
+    /// there stays until they are whole. Counts that are not known or not of one size change nothing.
     void update_heat(const std::array<std::shared_ptr<const HeatCounts>, 2>& counts,
                      const HeatCompareSettings& settings);
     /// Null: there is none.
@@ -36,12 +36,16 @@ public:
     void update_race(const std::optional<RaceKey>& wanted, bool may_start);
     /// By side; 0: not timed (yet).
     std::array<double, 2> rays_per_second() const;
-    bool busy() const { return is_race_due_ || race_.progress().running; }
-    void wait() const { race_.wait(); }
+    bool busy() const { return is_race_due_ || race_.progress().running || heat_work_.progress().running; }
+    void wait() const {
+        heat_work_.wait();
+        race_.wait();
+    }
 
 private:
-    std::array<std::shared_ptr<const HeatCounts>, 2> counts_;
+    std::array<std::shared_ptr<const HeatCounts>, 2> counts_;  ///< that heat_ or what comes next is of
     HeatCompareSettings settings_;
+    Background<HeatComparison> heat_work_;
     std::shared_ptr<const HeatComparison> heat_;
     uint64_t heat_version_ = 0;
 

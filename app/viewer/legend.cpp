@@ -124,8 +124,8 @@ void visits_legend(const Context& context, Legend& legend) {
 
 void swatches(const Context& context, Legend& legend) {
     const auto any = [&](const auto& holds) { return std::ranges::any_of(context.input.sides, holds); };
-    const bool has_empty = any(
-        [](const SideInput& side) { return side.tree != nullptr && side.tree->empty_leaves > 0; });
+    const bool has_empty =
+        any([](const SideInput& side) { return side.tree != nullptr && side.tree->empty_leaves > 0; });
     if (context.state.show_empty && has_empty && context.state.box_color != BoxColor::Visits) {
         legend.swatches.push_back({context.input.empty_color, "empty cell"});
     }
@@ -171,7 +171,8 @@ Legend box_legend(const Context& context) {
         if (visits == nullptr) return legend;
         const uint32_t count = visits->by_node[pointed->node];
         if (count > 0) legend.mark = scale.position(count);
-        legend.pointed += "\n" + (here.empty() ? "here: " : here) + "level " + std::to_string(pointed->level) + ", " + grouped(count) +
+        legend.pointed += "\n" + (here.empty() ? "here: " : here) + "level " +
+                          std::to_string(pointed->level) + ", " + grouped(count) +
                           (count == 1 ? " visit" : " visits");
     } else if (has_node) {
         legend.mark = scale.position(value);
@@ -212,8 +213,9 @@ std::string pixel_text(const Context& context) {
 Legend heat_legend(const Context& context) {
     const HeatComparison* both = context.input.heat;
     const HeatScale& heat = both != nullptr ? both->scale : context.side.trace.heat;
+    const Shading shading = both != nullptr ? both->settings.shading : context.state.shading;
     Legend legend;
-    legend.title = std::string(heat_words(context.state.shading)) + " by a primary ray" +
+    legend.title = std::string(heat_words(shading)) + " by a primary ray" +
                    (heat.scale.logarithmic ? ", logarithmic" : "");
     legend.lower = number_text(heat.scale.lower, 3);
     legend.middle = number_text(heat.scale.value(0.5), 3);
@@ -222,7 +224,7 @@ Legend heat_legend(const Context& context) {
         number_text(heat.scale.upper, 4) + (beyond ? " (most " + number_text(heat.largest, 4) + ")" : "");
     const std::optional<PixelValue>& pixel = context.input.side(context.input.pointed_side).pixel;
     if (pixel) {
-        const uint64_t value = heat_count(pixel->count, context.state.shading);
+        const uint64_t value = heat_count(pixel->count, shading);
         legend.mark = heat.scale.position(static_cast<double>(value));
         legend.pointed = (both != nullptr ? "" : "this pixel: ") + pixel_text(context);
     }
@@ -236,8 +238,9 @@ std::string signed_text(double value, int digits) {
 /// Symmetric: zero is in its middle.
 Legend difference_legend(const Context& context, const HeatComparison& heat) {
     const SignedScale& scale = heat.difference_scale;
+    const Shading shading = heat.settings.shading;
     Legend legend;
-    legend.title = std::string("A \u2212 B: ") + heat_words(context.state.shading) + " by a primary ray" +
+    legend.title = std::string("A \u2212 B: ") + heat_words(shading) + " by a primary ray" +
                    (scale.logarithmic ? ", logarithmic" : "");
     legend.lower = signed_text(-scale.most, 3);
     legend.middle = "0";
@@ -250,13 +253,12 @@ Legend difference_legend(const Context& context, const HeatComparison& heat) {
                        {side_color(context.state.theme, Side::B), "B" + part(heat.more_in_b)}};
     if (scale.largest > scale.most) legend.pointed = "most: " + number_text(scale.largest, 4);
     const std::optional<PixelValue>&a = context.input.side(Side::A).pixel,
-              &b = context.input.side(Side::B).pixel;
+          &b = context.input.side(Side::B).pixel;
     if (a && b) {
-        const auto difference =
-            static_cast<double>(heat_difference(a->count, b->count, context.state.shading));
+        const auto difference = static_cast<double>(heat_difference(a->count, b->count, shading));
         legend.mark = 0.5f + 0.5f * scale.position(difference);
-        legend.pointed = pixel_text(context) + "\nA \u2212 B: " + signed_text(difference, 6) + " " +
-                         heat_words(context.state.shading);
+        legend.pointed =
+            pixel_text(context) + "\nA \u2212 B: " + signed_text(difference, 6) + " " + heat_words(shading);
     }
     return legend;
 }
@@ -268,7 +270,9 @@ void wrong_legend(const Context& context) {
         if (side.check == nullptr) return std::string("\u2013");
         return grouped(side.check->modes[static_cast<size_t>(context.state.mode)].wrong()) + " wrong of " +
                grouped(side.check->checked) + (context.state.compares() ? "" : "\nrays checked, ") +
-               (context.state.compares() ? "" : context.state.mode == Mode::Exact ? "exact mode" : "fast mode");
+               (context.state.compares()            ? ""
+                : context.state.mode == Mode::Exact ? "exact mode"
+                                                    : "fast mode");
     };
     const float margin = 8.0f * context.scale;
     const ViewRect& traced = context.layout.side(Side::A).traced.rect;

@@ -35,7 +35,8 @@ std::vector<Measure> tree_measures(const PanelInput& input, const SideInput& sid
     const uint64_t largest = tree.leaf_sizes.empty() ? 0 : tree.leaf_sizes.size() - 1;
     return {
         {"references", "references in leaves", Unit::Count, Better::Lower, number(tree.references),
-         "References in all leaves, after duplicates of one primitive in a leaf were removed. Lower is better "
+         "References in all leaves, after duplicates of one primitive in a leaf were removed. Lower is "
+         "better "
          "for memory.\n" +
              grouped(side.shared_count) +
              " triangles of one reference are in several leaves (D shows them in blue)."},
@@ -161,8 +162,8 @@ std::optional<Side> MeasurePair::winner() const {
 std::vector<MeasurePair> pairs_of(const std::vector<Measure>& a, const std::vector<Measure>& b) {
     std::vector<MeasurePair> pairs;
     for (const Measure& measure : a) {
-        const auto other = std::ranges::find_if(
-            b, [&](const Measure& m) { return std::string(m.key) == measure.key; });
+        const auto other =
+            std::ranges::find_if(b, [&](const Measure& m) { return std::string(m.key) == measure.key; });
         if (other != b.end()) pairs.push_back({measure, *other});
     }
     return pairs;

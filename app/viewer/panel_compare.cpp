@@ -17,9 +17,10 @@ constexpr const char* kCompareTip =
 void view_choice(const Context& context) {
     constexpr std::array<const char*, 2> kViews{"wipe", "side by side"};
     int view = static_cast<int>(context.state.compare_view);
-    choice(context, "##compare view", view, 0, kViews,
-           "wipe: one picture, A to the left of a bar that can be dragged, B to the right of it. Side by side: "
-           "a picture each (G).");
+    choice(
+        context, "##compare view", view, 0, kViews,
+        "wipe: one picture, A to the left of a bar that can be dragged, B to the right of it. Side by side: "
+        "a picture each (G).");
     context.state.compare_view = static_cast<CompareView>(view);
 }
 
@@ -69,9 +70,8 @@ void draw_label(const Context& context, Side side, const ViewRect& part) {
     const Label label = label_of(context, side, part.width);
     const ImVec2 size{label.size.x + chip + 2.0f * padding, label.size.y + 2.0f * padding};
     if (part.width < size.x || part.height < size.y) return;
-    const float x =
-        side == Side::A ? std::min(part.x + margin, part.x + part.width - size.x)
-                        : std::max(part.x + part.width - margin - size.x, part.x);
+    const float x = side == Side::A ? std::min(part.x + margin, part.x + part.width - size.x)
+                                    : std::max(part.x + part.width - margin - size.x, part.x);
     const float y = part.y + margin;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     draw.AddRectFilled({x, y}, {x + size.x, y + size.y}, im_packed(Vec4(Vec3(context.colors.panel), 0.92f)),
@@ -99,6 +99,16 @@ void draw_bar(const Context& context, const WipeBar& bar) {
         draw.AddTriangleFilled({x, middle - arrow}, {x, middle + arrow}, {x + way * arrow, middle},
                                im_packed(Vec3(0.15f)));
     }
+}
+
+/// Between two pictures side by side.
+void draw_gap(const Context& context) {
+    const ViewRect &a = context.layout.side(Side::A).scene.rect, &b = context.layout.side(Side::B).scene.rect;
+    const float x = 0.5f * (a.x + a.width + b.x), half = std::max(1.0f, context.scale);
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const bool is_whole = !context.state.shows_difference() || context.state.traced != TracedView::Beside;
+    const float bottom = is_whole ? context.layout.view.y + context.layout.view.height : a.y + a.height;
+    draw.AddRectFilled({x - half, a.y}, {x + half, bottom}, im_packed(context.colors.panel));
 }
 
 }  // namespace
@@ -136,10 +146,10 @@ void compare_part(const Context& context) {
     ImGui::Dummy({0.0f, 2.0f * context.scale});
     if (s.compares()) {
         const auto tab = [&](Side side) {
-            return Tab{std::string("Recipe ") + side_name(side),
-                       "Edits this recipe; measures, levels and nodes below are of it (A).\n" +
-                           s.side(side).recipe,
-                       Vec4(side_color(s.theme, side), 1.0f)};
+            return Tab{
+                std::string("Recipe ") + side_name(side),
+                "Edits this recipe; measures, levels and nodes below are of it (A).\n" + s.side(side).recipe,
+                Vec4(side_color(s.theme, side), 1.0f)};
         };
         const std::array<Tab, 2> all{tab(Side::A), tab(Side::B)};
         if (const std::optional<size_t> chosen = tabs(context, all, index_of(s.active_side())))
@@ -171,6 +181,7 @@ void side_labels(const Context& context) {
     if (!context.state.compares()) return;
     for (const std::optional<WipeBar>& bar : context.layout.bars)
         if (bar) draw_bar(context, *bar);
+    if (context.state.compare_view == CompareView::Beside) draw_gap(context);
     const bool is_beside = context.state.traced == TracedView::Beside;
     for (const Side side : kSides) {
         const SideLayout& places = context.layout.side(side);

@@ -141,8 +141,8 @@ void measures_part(const Context& context) {
             value_row(context, of.name, measure_text(of.unit, of.value), of.tip);
         return;
     }
-    const std::vector<MeasurePair> pairs = pairs_of(measures_of(state, context.input, Side::A),
-                                                    measures_of(state, context.input, Side::B));
+    const std::vector<MeasurePair> pairs =
+        pairs_of(measures_of(state, context.input, Side::A), measures_of(state, context.input, Side::B));
     if (pairs.empty()) {
         note(context, "Not both structures yet.");
         return;

@@ -45,6 +45,8 @@ void compare_part(const Context& context);
 void view_part(const Context& context);
 void trace_part(const Context& context);
 void session_part(const Context& context);
+/// Height that session_part needs, in pixels.
+float session_height(const Context& context);
 void measures_part(const Context& context);
 /// A name in a row of which one is shown.
 struct Tab {

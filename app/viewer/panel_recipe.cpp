@@ -3,11 +3,11 @@
 
 #include <optional>
 #include <set>
-#include <string_view>
 #include <utility>
 
 #include "app/viewer/number_text.h"
 #include "app/viewer/panel_parts.h"
+#include "app/viewer/recipe_edit.h"
 #include "core/base/error.h"
 
 namespace boxwood::panel {
@@ -21,8 +21,8 @@ std::string stage_tip(const CatalogEntry& entry) {
 
 /// Where a stage's panel begins: its name folds and unfolds the parameters. True if they are shown.
 bool stage_head(const Context& context, const char* label) {
-    std::set<std::string>& folded = context.memory.folded_stages;
-    const std::string id = ImGui::GetID(label) != 0 ? std::to_string(ImGui::GetID(label)) : label;
+    std::set<uint32_t>& folded = context.memory.folded_stages;
+    const uint32_t id = ImGui::GetID(label);
     const bool is_open = !folded.contains(id);
     ImGui::AlignTextToFramePadding();
     colored(context.colors.dim, std::string(is_open ? "\u25be " : "\u25b8 ") + label);
@@ -64,49 +64,6 @@ std::vector<const CatalogEntry*> rows_of(std::span<const CatalogEntry> table) {
     return rows;
 }
 
-/// Family of what the builder and the first `count` transforms make.
-const char* family_after(const Recipe& recipe, size_t count) {
-    return count == 0 ? recipe.builder.entry().output : recipe.transforms[count - 1].entry().output;
-}
-
-/// The first transform that does not fit what comes before it; the number of transforms if all fit.
-size_t first_misfit(const Recipe& recipe) {
-    for (size_t i = 0; i < recipe.transforms.size(); ++i)
-        if (std::string_view(family_after(recipe, i)) != recipe.transforms[i].entry().input) return i;
-    return recipe.transforms.size();
-}
-
-bool all_fit(const Recipe& recipe) { return first_misfit(recipe) == recipe.transforms.size(); }
-
-/// Takes the transforms out that do not fit what comes before them, and says so.
-std::string drop_misfits(Recipe& recipe) {
-    std::string note;
-    for (size_t i = first_misfit(recipe); i < recipe.transforms.size(); i = first_misfit(recipe)) {
-        const CatalogEntry& entry = recipe.transforms[i].entry();
-        note += (note.empty() ? "" : "\n") + std::string(entry.id) + " was taken out: it needs a " +
-                entry.input + ", and here there is a " + family_after(recipe, i) + ".";
-        recipe.transforms.erase(recipe.transforms.begin() + static_cast<std::ptrdiff_t>(i));
-    }
-    return note;
-}
-
-Recipe with_inserted(Recipe recipe, size_t place, const CatalogEntry& entry) {
-    recipe.transforms.insert(recipe.transforms.begin() + static_cast<std::ptrdiff_t>(place), Stage(entry));
-    return recipe;
-}
-
-Recipe with_swapped(Recipe recipe, size_t place) {
-    std::swap(recipe.transforms[place], recipe.transforms[place + 1]);
-    return recipe;
-}
-
-/// The last place at which a transform fits and all after it still do.
-std::optional<size_t> place_for(const Recipe& recipe, const CatalogEntry& entry) {
-    for (size_t place = recipe.transforms.size() + 1; place-- > 0;)
-        if (all_fit(with_inserted(recipe, place, entry))) return place;
-    return std::nullopt;
-}
-
 /// A button that is only there to be pressed where the recipe it makes fits.
 bool move_button(const Context& context, const char* sign, bool fits, const std::string& tip) {
     ImGui::SameLine(0.0f, 3.0f * context.scale);
@@ -123,7 +80,7 @@ std::optional<Recipe> transform_row(const Context& context, Recipe& recipe, size
     const bool is_open = stage_head(context, "then");
     std::vector<const CatalogEntry*> rows;
     for (const CatalogEntry& entry : transform_catalog())
-        if (std::string_view(entry.input) == family_after(recipe, i)) rows.push_back(&entry);
+        if (fits_after(recipe, i, entry)) rows.push_back(&entry);
     if (const CatalogEntry* entry = pick(context, stage, is_open, rows, 69.0f * context.scale)) {
         stage = Stage(*entry);
         context.memory.recipe_note = drop_misfits(recipe);
@@ -131,8 +88,10 @@ std::optional<Recipe> transform_row(const Context& context, Recipe& recipe, size
     }
     const bool fits_up = i > 0 && all_fit(with_swapped(recipe, i - 1));
     const bool fits_down = i + 1 < recipe.transforms.size() && all_fit(with_swapped(recipe, i));
-    if (move_button(context, "\u2191", fits_up, "Before the transform above.")) return with_swapped(recipe, i - 1);
-    if (move_button(context, "\u2193", fits_down, "After the transform below.")) return with_swapped(recipe, i);
+    if (move_button(context, "\u2191", fits_up, "Before the transform above."))
+        return with_swapped(recipe, i - 1);
+    if (move_button(context, "\u2193", fits_down, "After the transform below."))
+        return with_swapped(recipe, i);
     if (move_button(context, "\u00d7", true, "Takes this transform out.")) {
         recipe.transforms.erase(recipe.transforms.begin() + static_cast<std::ptrdiff_t>(i));
         context.memory.recipe_note = drop_misfits(recipe);
@@ -254,7 +213,8 @@ void stages(const Context& context, Recipe recipe) {
     ImGui::PopID();
     ImGui::PushID("builder");
     const bool is_builder_open = stage_head(context, "builder");
-    if (const CatalogEntry* entry = pick(context, recipe.builder, is_builder_open, rows_of(builder_catalog()))) {
+    if (const CatalogEntry* entry =
+            pick(context, recipe.builder, is_builder_open, rows_of(builder_catalog()))) {
         recipe.builder = Stage(*entry);
         context.memory.recipe_note = drop_misfits(recipe);
         changed = true;
@@ -281,9 +241,12 @@ void recipe_part(const Context& context) {
         colored(context.colors.error, error.what());
         ImGui::PopTextWrapPos();
     }
-    if (!context.side.build_error.empty()) {
+    for (const Side side : kSides) {
+        const std::string& error = context.input.side(side).build_error;
+        if (error.empty() || !context.state.has(side)) continue;
         ImGui::PushTextWrapPos(0.0f);
-        colored(context.colors.error, context.side.build_error);
+        colored(context.colors.error,
+                (context.state.compares() ? std::string(side_name(side)) + ": " : std::string()) + error);
         ImGui::PopTextWrapPos();
     }
     if (context.input.cancelled) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "app/viewer/number_text.h"
 #include "app/viewer/panel_parts.h"
@@ -150,9 +151,10 @@ void trace_part(const Context& context) {
                 "decisions left to exact arithmetic by its primary ray.");
     if (is_heat(s.shading)) {
         if (s.compares()) {
-            toggle(context, "difference A \u2212 B", s.heat_difference, kDefault.heat_difference,
-                   "The signed difference of both heat maps in one picture, zero in the middle of its colours "
-                   "(J): orange where A does more, blue where B does more.");
+            toggle(
+                context, "difference A \u2212 B", s.heat_difference, kDefault.heat_difference,
+                "The signed difference of both heat maps in one picture, zero in the middle of its colours "
+                "(J): orange where A does more, blue where B does more.");
         }
         toggle(context, "logarithmic", s.log_heat, kDefault.log_heat, "Logarithmic scale of the heat map.");
         two_columns(context);
@@ -168,6 +170,12 @@ void trace_part(const Context& context) {
     enum_choice(
         context, "intersection", s.mode, kDefault.mode, kModes,
         "exact: the answer of exact arithmetic; fast: float arithmetic, wrong only at edges and ties.");
+}
+
+float session_height(const Context& context) {
+    const float spacing = ImGui::GetStyle().ItemSpacing.y;
+    const float title = 2.0f * context.scale + ImGui::GetTextLineHeight() + 4.0f * spacing + 1.0f;
+    return std::ceil(title + 2.0f * ImGui::GetFrameHeight() + spacing);
 }
 
 void session_part(const Context& context) {

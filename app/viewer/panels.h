@@ -27,10 +27,10 @@ struct SideInput {
     const TreeStats* tree = nullptr;    ///< of `built`
     const BoxValues* values = nullptr;  ///< of `built`
     uint64_t shared_count = 0;          ///< triangles in several leaves though one reference was made
-    std::string build_error;            ///< why the side's recipe is not what is shown; empty: it is, or will be
-    const NodeFacts* facts = nullptr;   ///< of the selected node; null: none
-    const Visits* visits = nullptr;     ///< that box colours show; null: none (yet)
-    Hit ray_hit;                        ///< of the state's ray
+    std::string build_error;  ///< why the side's recipe is not what is shown; empty: it is, or will be
+    const NodeFacts* facts = nullptr;            ///< of the selected node; null: none
+    const Visits* visits = nullptr;              ///< that box colours show; null: none (yet)
+    Hit ray_hit;                                 ///< of the state's ray
     const bench::PictureCheck* check = nullptr;  ///< null: not asked for, or not done
     WorkProgress check_progress;
     TraceState trace;                  ///< of the traced view; converged or not
@@ -71,7 +71,7 @@ struct PanelMemory {
     std::string recipe_error;                 ///< why recipe_text is no recipe
     std::string recipe_note;                  ///< what a change in the panel did beyond what was asked for
     std::string recipe_note_of;               ///< the recipe that it made
-    std::set<std::string> folded_stages;      ///< whose parameters are hidden
+    std::set<uint32_t> folded_stages;         ///< whose parameters are hidden
     std::string last_b;                       ///< B's recipe when two were compared last
     bool ask_open = false, ask_save = false;  ///< opens the dialog in this frame
     std::string path;                         ///< typed in a dialog

@@ -73,10 +73,10 @@ struct PickedRay {
 /// What belongs to one recipe. Nodes are those of what scene and recipe make; another scene or recipe forgets
 /// them.
 struct SideState {
-    std::string recipe;                  ///< text, see parse_recipe; of B: empty where nothing is compared
-    uint32_t node = kNoIndex;            ///< selected; index into NodeList::nodes
+    std::string recipe;                    ///< text, see parse_recipe; of B: empty where nothing is compared
+    uint32_t node = kNoIndex;              ///< selected; index into NodeList::nodes
     std::vector<uint32_t> hidden_nodes{};  ///< with all below them, and the triangles in no other leaf
-    uint32_t isolated = kNoIndex;        ///< node: only it and what is below it is shown
+    uint32_t isolated = kNoIndex;          ///< node: only it and what is below it is shown
 
     bool operator==(const SideState&) const = default;
 };
@@ -84,12 +84,12 @@ struct SideState {
 /// The truth of a session: plain data, of which everything that a frame shows is derived. A default value is
 /// what a new session shows.
 struct ViewerState {
-    std::string scene = "atrium";                         ///< see open_scene; a file as the user named it
+    std::string scene = "atrium";  ///< see open_scene; a file as the user named it
     std::array<SideState, 2> sides{SideState{.recipe = "evh(t=14) > bvh-binned-sah"}, SideState{}};
     Side active = Side::A;  ///< that panels and keys edit, where two are compared
     CompareView compare_view = CompareView::Wipe;
-    float wipe = 0.5f;             ///< place of the bar, 0 to 1 of the picture's width
-    bool heat_difference = false;  ///< a heat map of two recipes shows A - B
+    float wipe = 0.5f;                                    ///< place of the bar, 0 to 1 of the picture's width
+    bool heat_difference = false;                         ///< a heat map of two recipes shows A - B
     Mode mode = Mode::Exact;                              ///< how rays decide intersections
     std::optional<Camera> camera;                         ///< none: the scene's own view, or all of it
     std::array<std::optional<Camera>, 9> stored_views{};  ///< keys 1 to 9

@@ -18,8 +18,8 @@ struct ViewInput {
     WipeBar bar;               ///< that is dragged, as it was when it was taken hold of
 };
 
-/// Moves the state's camera or wipe bar, or picks a node or a ray, as mouse and flying keys of this ImGui frame
-/// ask. True while something is being moved, so that the whole move is one step to undo.
+/// Moves the state's camera or wipe bar, or picks a node or a ray, as mouse and flying keys of this ImGui
+/// frame ask. True while something is being moved, so that the whole move is one step to undo.
 bool move_camera(ViewerState& state, ViewInput& input, const FrameLayout& layout, const Camera& camera,
                  const Box& scene, std::vector<Action>& actions);
 

@@ -98,8 +98,8 @@ void Viewer::update(bool editing) {
 }
 
 bool Viewer::have_converged() const {
-    return std::ranges::all_of(
-        works_, [](const std::unique_ptr<SideWork>& work) { return work->has_converged(); });
+    return std::ranges::all_of(works_,
+                               [](const std::unique_ptr<SideWork>& work) { return work->has_converged(); });
 }
 
 bool Viewer::shows(const BuildRequest& request) const { return shown_ && satisfies(*shown_, request); }
@@ -239,7 +239,8 @@ Viewer::TracedPicture Viewer::traced_picture(Side side) const {
 
 std::optional<CompareWork::RaceKey> Viewer::wanted_race() const {
     const std::optional<TraceSettings> settings = wanted_trace();
-    if (!settings || !state.compares() || !state.show_times || !state.show_panels || !scene_) return std::nullopt;
+    if (!settings || !state.compares() || !state.show_times || !state.show_panels || !scene_)
+        return std::nullopt;
     const auto &a = work(Side::A).built(), &b = work(Side::B).built();
     if (!a || !b) return std::nullopt;
     return CompareWork::RaceKey{{a, b}, settings->mode, settings->camera, settings->width, settings->height};
@@ -331,7 +332,8 @@ void Viewer::point_in(PanelInput& input, const Vec2& pointer) const {
     input.pointed = point_at(*built, *of.values(), state, pointer_ray(camera(), pointer, picture->rect));
     const PicturePlace& traced = layout.side(picture->side).traced;
     if (!traced.part.contains(pointer)) return;
-    const int x = static_cast<int>(pointer.x - traced.rect.x), y = static_cast<int>(pointer.y - traced.rect.y);
+    const int x = static_cast<int>(pointer.x - traced.rect.x),
+              y = static_cast<int>(pointer.y - traced.rect.y);
     for (const Side side : kSides) input.sides[index_of(side)].pixel = work(side).pixel(x, y);
 }
 

@@ -109,7 +109,9 @@ private:
     void update_pictures();
     PictureSource picture_source(Side side) const;
     bool have_converged() const;
-    bool shows_two_heats() const { return state.compares() && is_heat(state.shading) && state.traced != TracedView::Off; }
+    bool shows_two_heats() const {
+        return state.compares() && is_heat(state.shading) && state.traced != TracedView::Off;
+    }
     std::optional<CompareWork::RaceKey> wanted_race() const;
     float visible_surface(const SideWork& work, const PickPoint& point) const;
     void point_in(PanelInput& input, const Vec2& pointer) const;

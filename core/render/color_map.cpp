@@ -34,15 +34,15 @@ constexpr Rgb kBatlow[] = {{1, 25, 89},    {17, 67, 96},    {34, 96, 97},    {77
                            {192, 144, 54}, {241, 157, 107}, {253, 180, 180}, {250, 204, 250}};
 
 /// From the middle outwards. The light one: Harrower and Brewer, "ColorBrewer.org: An Online Tool for
-/// Selecting Colour Schemes for Maps", The Cartographic Journal 2003: the blue of RdBu, the orange of PuOr. The
-/// dark one has the same hues, and as many steps of brightness on both sides.
+/// Selecting Colour Schemes for Maps", The Cartographic Journal 2003: the blue of RdBu, the orange of PuOr.
+/// The dark one has the same hues, and as many steps of brightness on both sides.
 constexpr Rgb kLightBlue[] = {{247, 247, 247}, {209, 229, 240}, {146, 197, 222},
                               {67, 147, 195},  {33, 102, 172},  {5, 48, 97}};
 constexpr Rgb kLightOrange[] = {{247, 247, 247}, {254, 224, 182}, {253, 184, 99},
                                 {224, 130, 20},  {179, 88, 6},    {127, 59, 8}};
 constexpr Rgb kDarkBlue[] = {{34, 35, 38},   {26, 62, 102},   {36, 97, 164},
                              {66, 141, 214}, {132, 190, 245}, {214, 236, 255}};
-constexpr Rgb kDarkOrange[] = {{34, 35, 38},   {92, 52, 18},    {150, 82, 14},
+constexpr Rgb kDarkOrange[] = {{34, 35, 38},   {92, 52, 18},   {150, 82, 14},
                                {208, 122, 24}, {246, 178, 86}, {255, 234, 196}};
 
 /// Okabe and Ito's colours, the grey in place of black, in an order in which neighbours differ in hue and

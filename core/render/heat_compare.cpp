@@ -59,6 +59,7 @@ HeatComparison compare_heat(const HeatCounts& a, const HeatCounts& b, const Heat
     BOXWOOD_ASSERT(a.step > 0 && b.step > 0 && a.width == b.width && a.height == b.height);
     const int step = std::max(a.step, b.step);
     HeatComparison result;
+    result.settings = settings;
     std::vector<double> values, sizes;
     for_each_pixel(a, step, [&](int x, int y) {
         const Count &count_a = a.at(x, y), &count_b = b.at(x, y);

@@ -50,6 +50,7 @@ struct HeatCompareSettings {
 
 /// Two heat pictures on one scale, and where they differ. A pixel's difference is A's count - B's.
 struct HeatComparison {
+    HeatCompareSettings settings;
     std::array<Image, 2> images;
     HeatScale scale;
     Image difference;
