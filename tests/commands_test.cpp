@@ -105,7 +105,7 @@ TEST_F(Program, StatsPrintsARowForEachSceneAndRecipe) {
     ASSERT_EQ(json["rows"].size(), 4u);
     for (const Json& row : json["rows"])
         for (const char* key : {"scene", "recipe", "triangles", "references", "references_made", "nodes",
-                                "leaves", "levels", "bytes", "sah_cost", "build_ms", "skipped"})
+                                "leaves", "levels", "bytes", "sah_cost", "epo", "build_ms", "skipped"})
             EXPECT_TRUE(row.contains(key)) << key;
     const Json& row = json["rows"][2];
     EXPECT_EQ(row["scene"], "two-triangles");
