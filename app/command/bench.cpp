@@ -14,7 +14,9 @@ constexpr Command kSuites[] = {
     {"error", "run time against error: both modes and plain double precision", run_bench_error},
     {"interact", "how quickly the program answers", run_bench_interact},
     {"lecture", "the lecture's comparison of structures: memory, build, rays", run_bench_lecture},
+    {"measures", "which measure of a tree tells its rays per second", run_bench_measures},
     {"refit", "refit against rebuild, by frame of an animated scene", run_bench_refit},
+    {"trees", "what builders and transforms promise about their trees", run_bench_trees},
 };
 
 void print_help() {
