@@ -38,7 +38,7 @@ ExitCode run_bench_measures(Arguments arguments) {
     initial.ray_count = 20000;
     initial.builds = 1;
     initial.patience = 30.0;
-    initial.rates.round_ms = 20.0;
+    initial.rates.round_ms = 12.0;
     shared.add_to(options, "scene; may be given several times (default: atrium, spaceship and kitchen)",
                   initial, "every builder, and references and transforms on common ones");
     options.footer(kFooter + recipe_help());

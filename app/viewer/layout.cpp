@@ -6,7 +6,7 @@
 namespace boxwood {
 namespace {
 
-constexpr float kLeftWidth = 296.0f, kRightWidth = 300.0f, kStatusHeight = 24.0f;  // at interface scale 1
+constexpr float kLeftWidth = 296.0f, kRightWidth = 344.0f, kStatusHeight = 24.0f;  // at interface scale 1
 constexpr float kNarrowestView = 200.0f;
 constexpr float kBarReach = 6.0f;  // pixels to either side of a wipe bar, at interface scale 1
 

@@ -1,6 +1,7 @@
 #include "app/viewer/level_report.h"
 
 #include <array>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "app/viewer/number_text.h"
@@ -9,16 +10,17 @@
 namespace boxwood {
 namespace {
 
-constexpr std::array<const char*, 6> kNames{"level",      "nodes",      "leaves",
-                                            "references", "cost_share", "overlap"};
+constexpr std::array<const char*, 8> kNames{"level",      "nodes", "leaves",  "references",
+                                            "cost_share", "epo",   "overlap", "empty_volume"};
 
-TextTable table(const TreeStats& tree) {
+TextTable table(const TreeStats& tree, const SlowMeasures* slow) {
     TextTable table{.header = {kNames.begin(), kNames.end()}};
     for (size_t level = 0; level < tree.levels.size(); ++level) {
         const LevelStats& row = tree.levels[level];
         table.rows.push_back({std::to_string(level), std::to_string(row.nodes), std::to_string(row.leaves),
                               std::to_string(row.references), number_text(cost_share(tree, level), 6),
-                              number_text(row.sibling_overlap, 6)});
+                              number_text(end_point_part(slow, level), 6),
+                              number_text(row.sibling_overlap, 6), number_text(row.empty_volume, 6)});
     }
     return table;
 }
@@ -29,11 +31,19 @@ double cost_share(const TreeStats& tree, size_t level) {
     return tree.sah_cost > 0.0 ? tree.levels[level].sah_cost / tree.sah_cost : 0.0;
 }
 
-std::string level_tsv(const TreeStats& tree) { return tsv_of(table(tree)); }
+double end_point_part(const SlowMeasures* slow, size_t level) {
+    return slow != nullptr && level < slow->end_points.levels.size()
+               ? slow->end_points.levels[level]
+               : std::numeric_limits<double>::quiet_NaN();
+}
 
-std::string level_markdown(const TreeStats& tree) { return markdown_of(table(tree)); }
+std::string level_tsv(const TreeStats& tree, const SlowMeasures* slow) { return tsv_of(table(tree, slow)); }
 
-std::string level_json(const TreeStats& tree) {
+std::string level_markdown(const TreeStats& tree, const SlowMeasures* slow) {
+    return markdown_of(table(tree, slow));
+}
+
+std::string level_json(const TreeStats& tree, const SlowMeasures* slow) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (size_t level = 0; level < tree.levels.size(); ++level) {
         const LevelStats& row = tree.levels[level];
@@ -42,7 +52,9 @@ std::string level_json(const TreeStats& tree) {
                         {"leaves", row.leaves},
                         {"references", row.references},
                         {"cost_share", cost_share(tree, level)},
-                        {"overlap", row.sibling_overlap}});
+                        {"epo", end_point_part(slow, level)},
+                        {"overlap", row.sibling_overlap},
+                        {"empty_volume", row.empty_volume}});
     }
     return rows.dump(4) + "\n";
 }

@@ -5,6 +5,7 @@
 
 #include "app/viewer/number_text.h"
 #include "app/viewer/text_table.h"
+#include "app/viewer/tree_quality.h"
 
 namespace boxwood {
 namespace {
@@ -122,6 +123,7 @@ std::vector<Measure> measures_of(const ViewerState& state, const PanelInput& inp
         measures.insert(measures.end(), more.begin(), more.end());
     };
     append(tree_measures(input, of));
+    append(tree_qualities(*of.tree, of.slow, of.slow_progress));
     if (state.show_times) append({build_time(input, *of.built), ray_rate(state, of, hint)});
     append(count_measures(of, hint));
     return measures;

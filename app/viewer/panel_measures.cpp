@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <numeric>
 
 #include "app/viewer/level_report.h"
@@ -52,24 +54,43 @@ void compare_table(const Context& context, const std::vector<MeasurePair>& pairs
     ImGui::PopFont();
 }
 
+/// Three digits at most: "12.3", "0.45", "<0.01"; a dash where there is no value.
+std::string short_text(double value) {
+    if (!std::isfinite(value)) return "\u2013";
+    if (value == 0.0) return "0";
+    if (value < 0.01) return "<0.01";
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*f", value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2, value);
+    return text;
+}
+
 /// A cell as a number, to sort by.
-enum class Column : uint8_t { Level, Nodes, Leaves, References, Cost, Overlap };
+enum class Column : uint8_t { Level, Nodes, Leaves, References, Cost, EndPoints, Overlap, Empty };
+constexpr size_t kColumnCount = 8;
 struct ColumnText {
     const char* name;
     const char* tip;
 };
-constexpr std::array<ColumnText, 6> kColumns{{
+constexpr std::array<ColumnText, kColumnCount> kColumns{{
     {"level", "The root is level 0. A click shows this level alone."},
     {"nodes", "Nodes of this level."},
     {"leaves", "Leaves of this level."},
     {"refs", "References in the leaves of this level."},
-    {"cost", "This level's part of the SAH cost. Lower is better."},
-    {"overlap",
-     "Area of the siblings' common boxes over their parents' area: the probability that a ray which "
-     "meets the parent has to visit both. Lower is better."},
+    {"cost", "This level's part of the SAH cost, in %. Lower is better."},
+    {"EPO",
+     "This level's part of the end-point overlap, in triangle tests: cost of its nodes around the ends of "
+     "rays whose triangles are elsewhere. Lower is better."},
+    {"over",
+     "Overlap, in %: area of the siblings' common boxes over their parents' area, the probability that a "
+     "ray which meets the parent has to visit both. Lower is better."},
+    {"empty",
+     "Empty volume, in %: the share of their parents' boxes (of the area of flat ones) that the nodes of "
+     "this level leave empty, the mean weighted by the parents' area."},
 }};
 
-double cell_value(const TreeStats& tree, size_t level, Column column) {
+/// NaN: not known (yet).
+double cell_value(const Context& context, size_t level, Column column) {
+    const TreeStats& tree = *context.side.tree;
     const LevelStats& row = tree.levels[level];
     switch (column) {
         case Column::Level:
@@ -81,34 +102,37 @@ double cell_value(const TreeStats& tree, size_t level, Column column) {
         case Column::References:
             return static_cast<double>(row.references);
         case Column::Cost:
-            return cost_share(tree, level);
+            return 100.0 * cost_share(tree, level);
+        case Column::EndPoints:
+            return end_point_part(context.side.slow, level);
         case Column::Overlap:
-            return row.sibling_overlap;
+            return 100.0 * row.sibling_overlap;
+        case Column::Empty:
+            return 100.0 * row.empty_volume;
     }
     return 0.0;
 }
 
-std::string cell_text(const TreeStats& tree, size_t level, Column column) {
-    const double value = cell_value(tree, level, column);
-    const bool is_share = column == Column::Cost || column == Column::Overlap;
-    return is_share ? percent_text(value, 1.0) : grouped(static_cast<uint64_t>(value));
+std::string cell_text(const Context& context, size_t level, Column column) {
+    const double value = cell_value(context, level, column);
+    return column < Column::Cost ? grouped(static_cast<uint64_t>(value)) : short_text(value);
 }
 
-std::vector<size_t> sorted_rows(const TreeStats& tree) {
-    std::vector<size_t> order(tree.levels.size());
+std::vector<size_t> sorted_rows(const Context& context) {
+    std::vector<size_t> order(context.side.tree->levels.size());
     std::iota(order.begin(), order.end(), size_t{0});
     const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
     if (specs == nullptr || specs->SpecsCount == 0) return order;
     const auto column = static_cast<Column>(specs->Specs[0].ColumnIndex);
     const bool down = specs->Specs[0].SortDirection == ImGuiSortDirection_Descending;
     std::ranges::stable_sort(order, [&](size_t a, size_t b) {
-        const double x = cell_value(tree, a, column), y = cell_value(tree, b, column);
+        const double x = cell_value(context, a, column), y = cell_value(context, b, column);
         return down ? x > y : x < y;
     });
     return order;
 }
 
-void level_row(const Context& context, const TreeStats& tree, size_t row, const LevelRange& shown) {
+void level_row(const Context& context, size_t row, const LevelRange& shown) {
     ImGui::TableNextRow();
     const int level = static_cast<int>(row);
     if (level >= shown.first && level <= shown.last) {
@@ -125,7 +149,7 @@ void level_row(const Context& context, const TreeStats& tree, size_t row, const 
             ImGui::PopID();
             ImGui::SameLine(0.0f, 0.0f);
         }
-        right_text(cell_text(tree, row, static_cast<Column>(c)));
+        right_text(cell_text(context, row, static_cast<Column>(c)));
     }
 }
 
@@ -173,8 +197,9 @@ void level_table_part(const Context& context) {
     if (context.side.built == nullptr) return;
     const TreeStats& tree = *context.side.tree;
     copy_buttons(
-        context, "levels", [&] { return level_tsv(tree); }, [&] { return level_markdown(tree); },
-        [&] { return level_json(tree); });
+        context, "levels", [&] { return level_tsv(tree, context.side.slow); },
+        [&] { return level_markdown(tree, context.side.slow); },
+        [&] { return level_json(tree, context.side.slow); });
     constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_Sortable | ImGuiTableFlags_ScrollY |
                                        ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH |
                                        ImGuiTableFlags_SizingStretchProp;
@@ -191,7 +216,7 @@ void level_table_part(const Context& context) {
         const int deepest = static_cast<int>(tree.levels.size()) - 1;
         const LevelRange shown{std::min(context.state.levels.first, deepest),
                                std::min(context.state.levels.last, deepest)};
-        for (const size_t row : sorted_rows(tree)) level_row(context, tree, row, shown);
+        for (const size_t row : sorted_rows(context)) level_row(context, row, shown);
         ImGui::EndTable();
     }
     ImGui::PopFont();

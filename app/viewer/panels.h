@@ -14,6 +14,7 @@
 #include "app/viewer/layout.h"
 #include "app/viewer/node_facts.h"
 #include "app/viewer/pointed.h"
+#include "app/viewer/tree_work.h"
 #include "app/viewer/visits.h"
 #include "bench/picture_check.h"
 #include "core/render/heat_compare.h"
@@ -23,8 +24,10 @@ namespace boxwood {
 
 /// What was found out for one side.
 struct SideInput {
-    const Built* built = nullptr;       ///< what is on screen; null: no structure yet
-    const TreeStats* tree = nullptr;    ///< of `built`
+    const Built* built = nullptr;        ///< what is on screen; null: no structure yet
+    const TreeStats* tree = nullptr;     ///< of `built`
+    const SlowMeasures* slow = nullptr;  ///< of `built`; null: not known yet
+    WorkProgress slow_progress;
     const BoxValues* values = nullptr;  ///< of `built`
     uint64_t shared_count = 0;          ///< triangles in several leaves though one reference was made
     std::string build_error;  ///< why the side's recipe is not what is shown; empty: it is, or will be

@@ -19,6 +19,7 @@ void RayWork::update(ViewerState& state, const std::shared_ptr<const Built>& bui
     update_visits(state, built, camera);
     update_check(state, built, camera);
     if (is_check_due_ && may_check) start_check(state.show_times);
+    tree_work_.update(state.show_panels ? built : nullptr, may_check && !check_progress().running);
 }
 
 void RayWork::update_ray(const ViewerState& state, const std::shared_ptr<const Built>& built) {
@@ -119,6 +120,7 @@ void RayWork::cancel_check(ViewerState& state) {
 void RayWork::wait() const {
     visits_work_.wait();
     check_work_.wait();
+    tree_work_.wait();
 }
 
 }  // namespace boxwood

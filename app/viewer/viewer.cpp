@@ -303,6 +303,8 @@ PanelInput Viewer::panel_input(const Vec2& pointer) const {
         SideInput& to = input.sides[index_of(side)];
         to.built = from.built().get();
         to.tree = from.tree().get();
+        to.slow = from.rays.tree_measures().get();
+        to.slow_progress = from.rays.tree_progress();
         to.values = from.values().get();
         to.shared_count = from.shared_count();
         to.build_error = from.build_error();
