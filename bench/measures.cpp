@@ -23,7 +23,7 @@ double ns_per_ray(const MeasuredStructure& s, TimedRays kind) {
 
 bool counts_in(const MeasuredStructure& s, Group group, TimedRays kind) {
     if (!s.is_built || s.is_list || !std::isfinite(ns_per_ray(s, kind))) return false;
-    if (group == Group::BinaryBvh && s.family != Bvh2::kFamily) return false;
+    if (group != Group::Boxes && s.family != Bvh2::kFamily) return false;
     for (size_t m = 0; m < kMeasureCount; ++m)
         if (!std::isfinite(value_of(s, static_cast<Measure>(m), kind))) return false;
     return true;
@@ -46,6 +46,18 @@ struct Compared {
     std::vector<double> times;
 };
 
+void keep_fast(Compared& scene) {
+    if (scene.times.empty()) return;
+    const double limit = kFastTime * *std::ranges::min_element(scene.times);
+    Compared fast;
+    for (size_t i = 0; i < scene.times.size(); ++i) {
+        if (scene.times[i] > limit) continue;
+        fast.structures.push_back(scene.structures[i]);
+        fast.times.push_back(scene.times[i]);
+    }
+    scene = std::move(fast);
+}
+
 std::vector<Compared> compared(std::span<const MeasuredScene> scenes, Group group, TimedRays kind) {
     std::vector<Compared> result;
     for (const MeasuredScene& scene : scenes) {
@@ -58,6 +70,7 @@ std::vector<Compared> compared(std::span<const MeasuredScene> scenes, Group grou
             one.structures.push_back(&s);
             one.times.push_back(ns_per_ray(s, kind));
         }
+        if (group == Group::FastBvh) keep_fast(one);
         if (one.structures.size() >= kFewest) result.push_back(std::move(one));
     }
     return result;
@@ -176,7 +189,7 @@ double value_of(const MeasuredStructure& s, Measure measure, TimedRays kind, dou
 
 std::vector<Prediction> predictions(std::span<const MeasuredScene> scenes) {
     std::vector<Prediction> result;
-    for (const Group group : {Group::BinaryBvh, Group::Boxes}) {
+    for (const Group group : {Group::BinaryBvh, Group::FastBvh, Group::Boxes}) {
         for (const TimedRays kind : {TimedRays::Primary, TimedRays::Diffuse}) {
             const std::vector<Compared> chosen = compared(scenes, group, kind);
             for (size_t m = 0; m < kMeasureCount; ++m)

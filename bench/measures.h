@@ -31,9 +31,11 @@ inline constexpr std::array<const char*, 2> kTimedRaysNames{"primary", "diffuse"
 /// Which structures are compared with each other.
 enum class Group : uint8_t {
     BinaryBvh,  ///< one layout, one traversal: what differs is the tree
+    FastBvh,    ///< of them those up to kFastTime times as slow as the scene's fastest
     Boxes,      ///< every structure whose nodes are boxes
 };
-inline constexpr std::array<const char*, 2> kGroupNames{"binary BVH", "all boxes"};
+inline constexpr std::array<const char*, 3> kGroupNames{"binary BVH", "fast binary BVH", "all boxes"};
+inline constexpr double kFastTime = 1.5;
 
 /// The structures of one scene. Only those count that are built, timed, and have all measures; of several
 /// recipes that come to the same tree the first.

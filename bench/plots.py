@@ -361,11 +361,12 @@ def draw_correlations(panel, predictions, group):
     panel.set_ylim(-0.6, len(measures) - 0.4)
     panel.grid(True, color="#e4e4e4", linewidth=0.6)
     panel.set_axisbelow(True)
-    panel.set_xlabel("correlation with the time of a ray within a scene\n1: tells it, 0: says nothing")
+    panel.set_xlabel("correlation with the time of a ray\nwithin a scene")
     points = max((row["points"] for row in predictions if row["structures"] == group), default=0)
     scenes = max((row["scenes"] for row in predictions if row["structures"] == group), default=0)
-    title = {"binary BVH": "binary BVHs", "all boxes": "all structures of boxes"}[group]
-    panel.set_title(f"{title}: {points} in {scenes} scenes")
+    title = {"binary BVH": "binary BVHs", "fast binary BVH": "binary BVHs, up to 1.5 times the least time",
+             "all boxes": "all structures of boxes"}[group]
+    panel.set_title(f"{title}:\n{points} in {scenes} scenes", fontsize=11)
 
 
 def draw_measures(pyplot, rows, predictions, folder):
@@ -375,12 +376,12 @@ def draw_measures(pyplot, rows, predictions, folder):
               ("LCV", lambda row: row["lcv"]),
               ("counted steps per ray", lambda row: row[f"{kind}_steps_per_ray"]))
     figure = pyplot.figure(figsize=(13, 9.6))
-    grid = figure.add_gridspec(2, 4, height_ratios=(1.15, 1.0), hspace=0.38, wspace=0.3,
-                               left=0.13, right=0.98, top=0.95, bottom=0.13)
-    for column, group in ((0, "binary BVH"), (1, "all boxes")):
-        panel = figure.add_subplot(grid[0, 2 * column:2 * column + 2])
+    grid = figure.add_gridspec(2, 12, height_ratios=(1.15, 1.0), hspace=0.38, wspace=0.9,
+                               left=0.13, right=0.98, top=0.94, bottom=0.13)
+    for column, group in enumerate(("binary BVH", "fast binary BVH", "all boxes")):
+        panel = figure.add_subplot(grid[0, 4 * column:4 * column + 4])
         draw_correlations(panel, predictions, group)
-        if column == 1:
+        if column > 0:
             panel.set_yticklabels([])
     signs = [pyplot.Line2D([], [], linestyle="", marker=marker, color=color, label=label,
                            markerfacecolor=color if marker == "o" else "white")
@@ -388,7 +389,7 @@ def draw_measures(pyplot, rows, predictions, folder):
              for marker, label in (("o", f"{word}, of logarithms"), ("D", f"{word}, of ranks"))]
     figure.axes[0].legend(handles=signs, fontsize=8, loc="upper left", framealpha=0.95)
     for column, (label, value_of) in enumerate(panels):
-        panel = figure.add_subplot(grid[1, column])
+        panel = figure.add_subplot(grid[1, 3 * column:3 * column + 3])
         points = relative_points(rows, kind, value_of)
         for family, (name, color, marker) in enumerate(FAMILIES):
             own = [point for point in points if point[2] == family]

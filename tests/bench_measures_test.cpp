@@ -44,7 +44,7 @@ TEST(Predictions, AreOfLogarithmsWithinAScene) {
          {measured("binary BVH", 8, 1, 64), measured("binary BVH", 16, 4, 128),
           measured("binary BVH", 32, 2, 256)}}};
     const std::vector<Prediction> all = predictions(scenes);
-    EXPECT_EQ(all.size(), 2 * 2 * kMeasureCount);
+    EXPECT_EQ(all.size(), 3 * 2 * kMeasureCount);
     const auto of = [&](Measure measure, TimedRays kind = TimedRays::Primary) {
         return find(all, Group::BinaryBvh, kind, measure);
     };
@@ -76,6 +76,16 @@ TEST(Predictions, TheWeightOfAnySceneComesFromTheOthers) {
     EXPECT_GT(p.alpha, 0.5);
     EXPECT_NEAR(p.spearman_worst, spearman(std::vector<double>{2, 7, 1}, std::vector<double>{1, 2, 9}),
                 1e-12);
+}
+
+TEST(Predictions, OfFastTreesLeaveOutThoseThatTakeMoreThanHalfAsLongAgain) {
+    const std::vector<MeasuredScene> scenes{
+        {"a",
+         {measured("binary BVH", 1, 1, 100), measured("binary BVH", 2, 2, 140),
+          measured("binary BVH", 3, 3, 149), measured("binary BVH", 4, 4, 151)}}};
+    const std::vector<Prediction> all = predictions(scenes);
+    EXPECT_EQ(find(all, Group::FastBvh, TimedRays::Primary, Measure::SahCost).points, 3u);
+    EXPECT_EQ(find(all, Group::BinaryBvh, TimedRays::Primary, Measure::SahCost).points, 4u);
 }
 
 TEST(Predictions, LeaveOutOtherLayoutsListsAndWhatHasNoMeasureAndTakeEachTreeOnce) {

@@ -261,7 +261,7 @@ TEST_F(Program, BenchMeasuresSetsMeasuresBesideRates) {
                             "primary_steps_per_ray", "diffuse_mrays_per_s"})
         EXPECT_TRUE(json["rows"][0][key].is_number()) << key;
     EXPECT_TRUE(json["rows"][3]["epo"].is_null());
-    EXPECT_EQ(json["predictions"].size(), 2u * 2u * 8u);
+    EXPECT_EQ(json["predictions"].size(), 3u * 2u * 8u);
 }
 
 TEST_F(Program, BenchTreesEndsWith1WhereAPromiseDoesNotHold) {
