@@ -37,34 +37,6 @@ void cast(const Mesh& mesh, const Structure& structure, std::span<const Ray> ray
     });
 }
 
-/// Both modes in turns over the same rays until the time is used, so that a change of the machine's speed
-/// meets both. Blocks of neighbouring pixels, as a picture is traced; the blocks are spread over the picture.
-void time_modes(const Mesh& mesh, const Structure& structure, const PictureCheckSettings& settings,
-                PictureCheck& check, Task& task) {
-    const std::vector<uint32_t> blocks = spread_order((check.rays + kBlock - 1) / kBlock);
-    std::vector<Hit> hits(kBlock);
-    std::array<double, 2> ms{};
-    const Timer timer;
-    for (size_t i = 0; timer.milliseconds() < 1000.0 * settings.seconds && !task.stopped(); ++i) {
-        const uint64_t first = blocks[i % blocks.size()] * kBlock;
-        std::vector<uint32_t> pixels(std::min(kBlock, check.rays - first));
-        std::iota(pixels.begin(), pixels.end(), static_cast<uint32_t>(first));
-        const std::vector<Ray> rays = rays_through(pixels, settings);
-        // The second one finds what it needs in the caches: each is the first in every other block.
-        for (const size_t m : {i % 2, 1 - i % 2}) {
-            const auto mode = static_cast<Mode>(m);
-            const Timer block_timer;
-            cast(mesh, structure, rays, std::span(hits).first(rays.size()), mode, task);
-            ms[m] += block_timer.milliseconds();
-            check.modes[m].timed_rays += rays.size();
-        }
-    }
-    for (size_t m = 0; m < ms.size(); ++m) {
-        if (ms[m] > 0.0)
-            check.modes[m].rays_per_second = 1000.0 * static_cast<double>(check.modes[m].timed_rays) / ms[m];
-    }
-}
-
 enum class Verdict : uint8_t { Right, WrongHit, WrongPrim, WrongT };
 
 Verdict judge(const std::optional<oracle::ExactHit>& expected, const Hit& found, Mode mode) {
@@ -105,6 +77,34 @@ std::vector<uint32_t> spread_order(uint64_t total) {
     return order;
 }
 
+std::array<RayTiming, 2> time_in_turns(const Mesh& mesh, const std::array<TimedRays, 2>& contenders,
+                                       const PictureCheckSettings& settings, Task& task) {
+    const uint64_t ray_count = static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
+    const std::vector<uint32_t> blocks = spread_order((ray_count + kBlock - 1) / kBlock);
+    std::vector<Hit> hits(kBlock);
+    std::array<double, 2> ms{};
+    std::array<RayTiming, 2> timings;
+    const Timer timer;
+    for (size_t i = 0; timer.milliseconds() < 1000.0 * settings.seconds && !task.stopped(); ++i) {
+        const uint64_t first = blocks[i % blocks.size()] * kBlock;
+        std::vector<uint32_t> pixels(std::min(kBlock, ray_count - first));
+        std::iota(pixels.begin(), pixels.end(), static_cast<uint32_t>(first));
+        const std::vector<Ray> rays = rays_through(pixels, settings);
+        // The second one finds what it needs in the caches: each is the first in every other block.
+        for (const size_t c : {i % 2, 1 - i % 2}) {
+            const Timer block_timer;
+            cast(mesh, *contenders[c].structure, rays, std::span(hits).first(rays.size()), contenders[c].mode,
+                 task);
+            ms[c] += block_timer.milliseconds();
+            timings[c].rays += rays.size();
+        }
+    }
+    for (size_t c = 0; c < ms.size(); ++c) {
+        if (ms[c] > 0.0) timings[c].rays_per_second = 1000.0 * static_cast<double>(timings[c].rays) / ms[c];
+    }
+    return timings;
+}
+
 PictureCheck check_picture(const Mesh& mesh, const Structure& structure, const PictureCheckSettings& settings,
                            Task& task) {
     const Timer timer;
@@ -120,7 +120,14 @@ PictureCheck check_picture(const Mesh& mesh, const Structure& structure, const P
     std::array<std::vector<Hit>, 2> hits{std::vector<Hit>(rays.size()), std::vector<Hit>(rays.size())};
     for (const Mode mode : {Mode::Exact, Mode::Fast})
         cast(mesh, structure, rays, hits[static_cast<size_t>(mode)], mode, task, &task.done);
-    if (settings.seconds > 0.0) time_modes(mesh, structure, settings, check, task);
+    if (settings.seconds > 0.0) {
+        const std::array<RayTiming, 2> timings =
+            time_in_turns(mesh, {{{&structure, Mode::Exact}, {&structure, Mode::Fast}}}, settings, task);
+        for (size_t m = 0; m < timings.size(); ++m) {
+            check.modes[m].timed_rays = timings[m].rays;
+            check.modes[m].rays_per_second = timings[m].rays_per_second;
+        }
+    }
 
     const ScreenedOracle oracle(mesh);
     std::array<std::vector<Verdict>, 2> verdicts{std::vector<Verdict>(rays.size()),

@@ -45,6 +45,23 @@ struct PictureCheck {
 PictureCheck check_picture(const Mesh& mesh, const Structure& structure, const PictureCheckSettings& settings,
                            Task& task);
 
+/// Who casts the rays that are timed.
+struct TimedRays {
+    const Structure* structure;
+    Mode mode = Mode::Exact;
+};
+
+struct RayTiming {
+    uint64_t rays = 0;             ///< as many of the picture as time allowed
+    double rays_per_second = 0.0;  ///< on all threads; 0: not timed
+};
+
+/// Both in turns over the same rays of the picture until settings.seconds are used, so that a change of the
+/// machine's speed meets both. Blocks of neighbouring pixels, as a picture is traced; the blocks are spread
+/// over the picture. After a stop not to be used.
+std::array<RayTiming, 2> time_in_turns(const Mesh& mesh, const std::array<TimedRays, 2>& contenders,
+                                       const PictureCheckSettings& settings, Task& task);
+
 /// `count` different numbers below `total`, ascending and evenly spread; all where there are no more.
 std::vector<uint32_t> even_sample(uint64_t total, uint64_t count);
 

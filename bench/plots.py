@@ -5,6 +5,7 @@
 
 Pictures, each where the rows have what it needs:
     amortize-SCENE.png build plus trace against rays, and what share of the best rate that is, by total time
+    measures.png       how well each measure of a tree tells the time of a ray, and that time against four of them
     refit-SCENE.png    refit against rebuild by frame: times, SAH cost, rays per second
     peers-THREADS.png  rays per second over the best Embree variant's, by scene and kind of rays
     builds-SCENE.png   what builds take, beside those of Embree
@@ -33,12 +34,14 @@ RAY_COUNTS = (1e5, 1e6, 1e7)
 
 
 def read_rows(files):
-    """All rows of each command."""
+    """All rows of each command; those of `bench measures` with its predictions under a name of their own."""
     rows = {}
     for name in files:
         with open(name, encoding="utf-8") as file:
             report = json.load(file)
         rows.setdefault(report["command"], []).extend(report["rows"])
+        if "predictions" in report:
+            rows.setdefault("predictions", []).extend(report["predictions"])
     return rows
 
 
@@ -315,6 +318,111 @@ def draw_refit(pyplot, rows, folder):
         save_with_legend(pyplot, figure, axes[0][0], os.path.join(folder, f"refit-{file_word(scene)}.png"))
 
 
+MEASURE_LABELS = {"steps_per_ray": "counted steps per ray", "sah_cost": "SAH cost", "sah_epo": "SAH and EPO",
+                  "epo": "EPO", "lcv": "LCV", "overlap": "overlap", "empty_volume": "empty volume",
+                  "leaf_size_variation": "leaf-size variation"}
+FAMILIES = (("BVH, binary", "#0072b2", "o"), ("BVH, wide or late split", "#56b4e9", "^"),
+            ("kd-tree", "#d55e00", "s"), ("octree, quadtree", "#009e73", "D"), ("grid", "#cc79a7", "v"))
+
+
+def family_of(row):
+    family = row["family"]
+    if family == "binary BVH":
+        return 0
+    if "BVH" in family:
+        return 1
+    return 2 if "kd-tree" in family else 3 if "octree" in family else 4
+
+
+def relative_points(rows, kind, value_of):
+    """(measure, time, family) of each structure, both relative to their geometric means over the BVHs of the scene."""
+    points = []
+    for scene in dict.fromkeys(row["scene"] for row in rows):
+        own = [(value_of(row), 1e3 / row[f"{kind}_mrays_per_s"], family_of(row)) for row in rows
+               if row["scene"] == scene and row.get(f"{kind}_mrays_per_s") and row.get("epo") is not None]
+        own = [point for point in own if point[0] and point[0] > 0]
+        base = [point for point in own if point[2] == 0]
+        if base:
+            x_mean, y_mean = (geometric_mean([point[i] for point in base]) for i in (0, 1))
+            points += [(x / x_mean, y / y_mean, family) for x, y, family in own]
+    return points
+
+
+def draw_correlations(panel, predictions, group):
+    """A line for each measure: Pearson's and the mean rank correlation, primary above diffuse."""
+    measures = list(MEASURE_LABELS)
+    for kind, shift, color in (("primary", 0.16, "#0072b2"), ("diffuse", -0.16, "#d55e00")):
+        for row in predictions:
+            if row["structures"] != group or row["rays_kind"] != kind:
+                continue
+            y = len(measures) - 1 - measures.index(row["measure"]) + shift
+            for key, marker in (("pearson", "o"), ("spearman", "D")):
+                if row[key] is not None:
+                    panel.plot(row[key], y, marker, color=color, markersize=6.5 if key == "pearson" else 5,
+                               markerfacecolor=color if key == "pearson" else "white")
+    panel.axvline(0, color="#555555", linewidth=1.0)
+    panel.set_yticks(range(len(measures)), [MEASURE_LABELS[m] for m in reversed(measures)])
+    panel.set_xlim(-1.03, 1.03)
+    panel.set_ylim(-0.6, len(measures) - 0.4)
+    panel.grid(True, color="#e4e4e4", linewidth=0.6)
+    panel.set_axisbelow(True)
+    panel.set_xlabel("correlation with the time of a ray\nwithin a scene")
+    points = max((row["points"] for row in predictions if row["structures"] == group), default=0)
+    scenes = max((row["scenes"] for row in predictions if row["structures"] == group), default=0)
+    title = {"binary BVH": "binary BVHs", "fast binary BVH": "binary BVHs, up to 1.5 times the least time",
+             "all boxes": "all structures of boxes"}[group]
+    panel.set_title(f"{title}:\n{points} in {scenes} scenes", fontsize=11)
+
+
+def draw_measures(pyplot, rows, predictions, folder):
+    kind = "diffuse"
+    panels = (("SAH cost", lambda row: row["sah_cost"]),
+              ("EPO", lambda row: row["epo"]),
+              ("LCV", lambda row: row["lcv"]),
+              ("counted steps per ray", lambda row: row[f"{kind}_steps_per_ray"]))
+    figure = pyplot.figure(figsize=(13, 9.6))
+    grid = figure.add_gridspec(2, 12, height_ratios=(1.15, 1.0), hspace=0.38, wspace=0.9,
+                               left=0.13, right=0.98, top=0.94, bottom=0.13)
+    for column, group in enumerate(("binary BVH", "fast binary BVH", "all boxes")):
+        panel = figure.add_subplot(grid[0, 4 * column:4 * column + 4])
+        draw_correlations(panel, predictions, group)
+        if column > 0:
+            panel.set_yticklabels([])
+    signs = [pyplot.Line2D([], [], linestyle="", marker=marker, color=color, label=label,
+                           markerfacecolor=color if marker == "o" else "white")
+             for color, word in (("#0072b2", "primary"), ("#d55e00", "diffuse"))
+             for marker, label in (("o", f"{word}, of logarithms"), ("D", f"{word}, of ranks"))]
+    figure.axes[0].legend(handles=signs, fontsize=8, loc="upper left", framealpha=0.95)
+    for column, (label, value_of) in enumerate(panels):
+        panel = figure.add_subplot(grid[1, 3 * column:3 * column + 3])
+        points = relative_points(rows, kind, value_of)
+        for family, (name, color, marker) in enumerate(FAMILIES):
+            own = [point for point in points if point[2] == family]
+            panel.scatter([p[0] for p in own], [p[1] for p in own], s=14, alpha=0.65, linewidths=0,
+                          color=color, marker=marker)
+        ends = (0.1, 64)
+        panel.plot(ends, ends, color="#555555", linewidth=1.0, zorder=0)
+        panel.set_xscale("log", base=2)
+        panel.set_yscale("log", base=2)
+        for axis in (panel.xaxis, panel.yaxis):
+            axis.set_major_formatter(lambda value, _: f"{value:g}")
+        panel.set_xlim(0.1, 64)
+        panel.set_ylim(0.35, 64)
+        panel.grid(True, color="#e4e4e4", linewidth=0.6)
+        panel.set_axisbelow(True)
+        panel.set_xlabel(label)
+        if column == 0:
+            panel.set_ylabel(f"time of a {kind} ray")
+    handles = [pyplot.Line2D([], [], linestyle="", marker=marker, color=color, label=name)
+               for name, color, marker in FAMILIES]
+    figure.legend(handles=handles, loc="lower center", ncol=5, frameon=False, fontsize=9,
+                  title="both axes relative to the mean of the scene's binary BVHs", title_fontsize=9)
+    path = os.path.join(folder, "measures.png")
+    figure.savefig(path, dpi=110)
+    pyplot.close(figure)
+    print(path)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("files", nargs="+", metavar="FILE", help="JSON of boxwood bench")
@@ -330,7 +438,8 @@ def main():
     rows = read_rows(arguments.files)
     errors = error_rows(rows.get("bench error", []))
     suites = {"bench amortize": draw_amortize, "bench refit": draw_refit, "bench peers": plots_peers.draw_peers,
-              "bench builds": plots_peers.draw_builds, "bench scale": plots_peers.draw_scale}
+              "bench builds": plots_peers.draw_builds, "bench scale": plots_peers.draw_scale,
+              "bench measures": lambda *drawn: draw_measures(*drawn[:2], rows.get("predictions", []), drawn[2])}
     if not errors and not any(rows.get(suite) for suite in suites):
         print("plots.py: no rows of a suite that it draws in the files", file=sys.stderr)
         return 3

@@ -8,13 +8,6 @@
 namespace boxwood::bench {
 namespace {
 
-/// `count` of the rays, evenly spread.
-std::vector<Ray> spread(std::span<const Ray> rays, size_t count) {
-    std::vector<Ray> chosen(count);
-    for (size_t i = 0; i < count; ++i) chosen[i] = rays[i * rays.size() / count];
-    return chosen;
-}
-
 class Caster {
 public:
     Caster(const Structure& structure, const Mesh& mesh, Mode mode, const Task& task)
@@ -30,10 +23,10 @@ public:
     /// As many rays as take about `ms`, found by casting more and more of them.
     size_t fitting_count(std::span<const Ray> rays, double ms) const {
         size_t count = std::min<size_t>(rays.size(), 16);
-        double taken = cast(spread(rays, count));
+        double taken = cast(evenly_spread(rays, count));
         while (count < rays.size() && taken < 0.25 * ms && !task_.stopped()) {
             count = std::min(rays.size(), 4 * count);
-            taken = cast(spread(rays, count));
+            taken = cast(evenly_spread(rays, count));
         }
         const double fitting = static_cast<double>(count) * ms / std::max(taken, 1e-3);
         return static_cast<size_t>(std::clamp(fitting, 1.0, static_cast<double>(rays.size())));
@@ -48,6 +41,12 @@ private:
 
 }  // namespace
 
+std::vector<Ray> evenly_spread(std::span<const Ray> rays, size_t count) {
+    std::vector<Ray> chosen(count);
+    for (size_t i = 0; i < count; ++i) chosen[i] = rays[i * rays.size() / count];
+    return chosen;
+}
+
 double Rate::mrays_per_s() const { return static_cast<double>(rays) / median_of(ms) / 1000.0; }
 
 std::vector<Rate> time_rates(std::span<const Structure> structures, const Mesh& mesh,
@@ -59,7 +58,7 @@ std::vector<Rate> time_rates(std::span<const Structure> structures, const Mesh& 
     std::vector<size_t> order;
     for (const Structure& structure : structures) {
         const Caster caster(structure, mesh, settings.mode, task);
-        chosen.push_back(spread(rays, caster.fitting_count(rays, settings.round_ms)));
+        chosen.push_back(evenly_spread(rays, caster.fitting_count(rays, settings.round_ms)));
         rates[order.size()].rays = chosen.back().size();
         order.push_back(order.size());
         casters.push_back(caster);

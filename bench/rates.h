@@ -25,6 +25,9 @@ struct Rate {
     double mrays_per_s() const;  ///< of the median round; NaN where nothing was timed
 };
 
+/// `count` of the rays, evenly spread; count <= rays.size().
+std::vector<Ray> evenly_spread(std::span<const Ray> rays, size_t count);
+
 /// Closest hits by every structure of the same mesh, in rounds over all of them in random order, so that what
 /// slows the machine down slows all down. One thread, processor time. After a stop not to be used.
 std::vector<Rate> time_rates(std::span<const Structure> structures, const Mesh& mesh,

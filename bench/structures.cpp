@@ -10,6 +10,8 @@
 #include "bench/timing.h"
 #include "core/base/parallel.h"
 #include "core/brute_force/brute_force.h"
+#include "core/measure/end_point_overlap.h"
+#include "core/measure/leaf_count_variability.h"
 #include "core/measure/tree_stats.h"
 
 namespace boxwood::bench {
@@ -62,7 +64,9 @@ public:
         }
         task_.done += 1;
         if (built) {
-            const TreeStats stats = tree_stats(make_level_table(built->structure.list_nodes()));
+            const LevelTable levels = make_level_table(built->structure.list_nodes());
+            const TreeStats stats = tree_stats(levels);
+            if (settings_.with_measures) row.measures = measure(levels.list, stats);
             row.is_built = true;
             row.is_list = std::string(built->structure.family()) == BruteForce::kFamily;
             row.family = built->structure.family();
@@ -97,12 +101,36 @@ public:
         for (MeasuredStructure& row : rows_) {
             if (!row.is_built) continue;
             row.primary = first[i];
-            row.diffuse = second[i++];
+            row.diffuse = second[i];
+            if (settings_.with_measures) {
+                row.measures.primary_steps = steps(structures_[i], primary, row.primary.rays);
+                row.measures.diffuse_steps = steps(structures_[i], diffuse, row.diffuse.rays);
+            }
+            ++i;
         }
         return std::move(rows_);
     }
 
 private:
+    TreeMeasures measure(const NodeList& list, const TreeStats& stats) const {
+        Task task(task_.stop);
+        return {.epo = end_point_overlap(list, scene_->mesh, task).total,
+                .leaf_count_deviation = count_leaves_on_lines(list, task).deviation,
+                .sibling_overlap = stats.sibling_overlap,
+                .empty_volume = stats.empty_volume,
+                .leaf_size_variation = stats.leaf_size_variation};
+    }
+    /// Mean over as many of the rays as were timed.
+    double steps(const Structure& structure, std::span<const Ray> rays, uint64_t timed) const {
+        if (timed == 0) return std::numeric_limits<double>::quiet_NaN();
+        const std::vector<Ray> chosen = evenly_spread(rays, timed);
+        std::vector<Hit> hits(timed);
+        std::vector<Count> counts(timed);
+        structure.closest_hits_counted(scene_->mesh, chosen, hits, counts, settings_.rates.mode, task_);
+        uint64_t sum = 0;
+        for (const Count& count : counts) sum += count.nodes + count.tests;
+        return static_cast<double>(sum) / static_cast<double>(timed);
+    }
     std::vector<Rate> rates(std::span<const Ray> rays) {
         std::vector<Rate> result = time_rates(structures_, scene_->mesh, rays, settings_.rates, task_);
         task_.done += 1;

@@ -18,6 +18,17 @@ struct StructureSettings {
     int builds = 3;            ///< of each recipe
     double patience = 60.0;    ///< seconds after which a build is given up
     RateSettings rates;
+    bool with_measures = false;  ///< measure the trees and count steps too
+};
+
+/// What a tree is measured by beside its SAH cost, all independent of the machine; NaN: not defined for such
+/// nodes.
+struct TreeMeasures {
+    double epo = 0.0;                                                             ///< see EndPointOverlap
+    double leaf_count_deviation = 0.0;                                            ///< see LeafCounts
+    double sibling_overlap = 0.0, empty_volume = 0.0, leaf_size_variation = 0.0;  ///< see TreeStats
+    /// Nodes visited and primitives tested for a ray, in the mean over the rays that were timed.
+    double primary_steps = 0.0, diffuse_steps = 0.0;
 };
 
 /// What one recipe costs and gives on a scene.
@@ -31,6 +42,7 @@ struct MeasuredStructure {
     double sah_cost = 0.0;
     double build_ms = 0.0;  ///< references, builder and transforms; median, NaN where given up
     Rate primary, diffuse;
+    TreeMeasures measures;  ///< zeros unless asked for
 };
 
 /// Measures structures on a scene: one thread, processor time. Where no recipes are given these are every

@@ -9,7 +9,7 @@ namespace boxwood {
 namespace {
 
 BuildRequest request(const std::string& recipe, const std::string& scene = "cornell") {
-    return {.scene = scene, .recipe = recipe};
+    return {.scene = scene, .recipes = {recipe, ""}};
 }
 
 TEST(BuildJob, AnswersWithTheWholeStructure) {
@@ -20,12 +20,40 @@ TEST(BuildJob, AnswersWithTheWholeStructure) {
     const std::optional<BuildResult> result = job.take();
     ASSERT_TRUE(result);
     EXPECT_EQ(result->error, "");
-    ASSERT_TRUE(result->built);
-    EXPECT_EQ(print(result->built->recipe), "bvh-sweep-sah");
-    ASSERT_TRUE(result->built->levels);
-    EXPECT_EQ(result->values->references.size(), result->built->levels->list.nodes.size());
-    EXPECT_EQ(result->tree->nodes, result->built->levels->list.nodes.size());
+    ASSERT_TRUE(result->sides[0].built);
+    EXPECT_EQ(print(result->sides[0].built->recipe), "bvh-sweep-sah");
+    ASSERT_TRUE(result->sides[0].built->levels);
+    EXPECT_EQ(result->sides[0].values->references.size(), result->sides[0].built->levels->list.nodes.size());
+    EXPECT_EQ(result->sides[0].tree->nodes, result->sides[0].built->levels->list.nodes.size());
     EXPECT_FALSE(job.take()) << "a result is handed over once";
+}
+
+TEST(BuildJob, ARefusedRecipeOfOneSideLeavesTheOther) {
+    BuildJob job(std::make_shared<StageCache>());
+    job.request({.scene = "cornell", .recipes = {"bvh-sweep-sah", "bvh-swoop-sah"}});
+    job.wait();
+    const std::optional<BuildResult> result = job.take();
+    ASSERT_TRUE(result && result->sides[0].built);
+    EXPECT_EQ(result->sides[0].error, "");
+    EXPECT_FALSE(result->sides[1].built);
+    EXPECT_NE(result->sides[1].error.find("bvh-sweep-sah"), std::string::npos) << result->sides[1].error;
+}
+
+TEST(BuildJob, WhatOneSideHadIsHandedOverAgain) {
+    BuildJob job(std::make_shared<StageCache>());
+    const auto built = [&](const std::string& a, const std::string& b) {
+        job.request({.scene = "cornell", .recipes = {a, b}});
+        job.wait();
+        return job.take()->sides;
+    };
+    const auto first = built("bvh-sweep-sah", "bvh-binned-sah");
+    const auto swapped = built("bvh-binned-sah", "bvh-sweep-sah");
+    EXPECT_EQ(first[0].built, swapped[1].built);
+    EXPECT_EQ(first[1].built, swapped[0].built);
+    const auto twice = built("bvh-sweep-sah", "bvh-sweep-sah");
+    EXPECT_EQ(twice[0].built, twice[1].built);
+    EXPECT_EQ(twice[0].built, first[0].built);
+    EXPECT_FALSE(built("bvh-sweep-sah", "")[1].built);
 }
 
 TEST(BuildJob, ASecondVisitRunsNothingAgain) {
@@ -33,7 +61,7 @@ TEST(BuildJob, ASecondVisitRunsNothingAgain) {
     const auto visit = [&](const std::string& recipe) {
         job.request(request(recipe));
         job.wait();
-        EXPECT_TRUE(job.take()->built);
+        EXPECT_TRUE(job.take()->sides[0].built);
         return job.cache().run_count();
     };
     const uint64_t first = visit("evh(t=6) > bvh-binned-sah");
@@ -48,10 +76,10 @@ TEST(BuildJob, AChangeOfTheBuilderKeepsTheReferences) {
     BuildJob job(std::make_shared<StageCache>());
     job.request(request("evh(t=6) > bvh-binned-sah"));
     job.wait();
-    const auto before = job.take()->built;
+    const auto before = job.take()->sides[0].built;
     job.request(request("evh(t=6) > bvh-sweep-sah"));
     job.wait();
-    EXPECT_EQ(job.take()->built->references, before->references);
+    EXPECT_EQ(job.take()->sides[0].built->references, before->references);
 }
 
 TEST(BuildJob, OfSeveralRequestsTheNewestIsAnswered) {
@@ -60,8 +88,8 @@ TEST(BuildJob, OfSeveralRequestsTheNewestIsAnswered) {
         job.request(request("evh(t=" + std::to_string(t) + ") > bvh-sweep-sah", "spaceship"));
     job.wait();
     const std::optional<BuildResult> result = job.take();
-    ASSERT_TRUE(result && result->built);
-    EXPECT_EQ(print(result->built->recipe), "evh(t=16) > bvh-sweep-sah");
+    ASSERT_TRUE(result && result->sides[0].built);
+    EXPECT_EQ(print(result->sides[0].built->recipe), "evh(t=16) > bvh-sweep-sah");
     EXPECT_FALSE(job.take());
 }
 
@@ -78,7 +106,7 @@ TEST(BuildJob, CancelEndsTheWorkWithoutAResult) {
     EXPECT_FALSE(job.progress().running);
     job.request(request("bvh-sweep-sah"));
     job.wait();
-    EXPECT_TRUE(job.take()->built) << "it works on after a cancel";
+    EXPECT_TRUE(job.take()->sides[0].built) << "it works on after a cancel";
 }
 
 TEST(BuildJob, SaysWhyASceneOrARecipeIsRefused) {
@@ -96,17 +124,17 @@ TEST(BuildJob, SaysWhyASceneOrARecipeIsRefused) {
     result = job.take();
     ASSERT_TRUE(result);
     EXPECT_TRUE(result->scene);
-    EXPECT_FALSE(result->built);
-    EXPECT_NE(result->error.find("bvh-sweep-sah"), std::string::npos);
+    EXPECT_FALSE(result->sides[0].built);
+    EXPECT_NE(result->sides[0].error.find("bvh-sweep-sah"), std::string::npos);
 }
 
 TEST(BuildJob, BuildsNoStructureThatNothingShows) {
     BuildJob job(std::make_shared<StageCache>());
-    job.request({.scene = "cornell", .recipe = "bvh-sweep-sah", .structure = false});
+    job.request({.scene = "cornell", .recipes = {"bvh-sweep-sah", ""}, .structure = false});
     job.wait();
     const std::optional<BuildResult> result = job.take();
     ASSERT_TRUE(result && result->scene);
-    EXPECT_FALSE(result->built);
+    EXPECT_FALSE(result->sides[0].built);
     EXPECT_EQ(job.cache().run_count(), 0u);
 }
 

@@ -106,7 +106,7 @@ TEST_F(Program, StatsPrintsARowForEachSceneAndRecipe) {
     ASSERT_EQ(json["rows"].size(), 4u);
     for (const Json& row : json["rows"])
         for (const char* key : {"scene", "recipe", "triangles", "references", "references_made", "nodes",
-                                "leaves", "levels", "bytes", "sah_cost", "build_ms", "skipped"})
+                                "leaves", "levels", "bytes", "sah_cost", "epo", "build_ms", "skipped"})
             EXPECT_TRUE(row.contains(key)) << key;
     const Json& row = json["rows"][2];
     EXPECT_EQ(row["scene"], "two-triangles");
@@ -284,6 +284,33 @@ TEST_F(Program, BenchBuildsAndScaleRun) {
     EXPECT_EQ(json["scene"], Json({"terrain@tris=1k", "terrain@tris=2k"}));
     EXPECT_EQ(json["summary"][0]["most_triangles"], json["rows"].back()["triangles"]);
     expect_refusal("bench scale --most all", 2, "a number of triangles");
+}
+
+TEST_F(Program, BenchMeasuresSetsMeasuresBesideRates) {
+    const Ended result =
+        run(std::string("bench measures -s cornell -r bvh-sweep-sah -r bvh-object-median -r kd-sah "
+                        "-r 'bvh-sweep-sah > spheres'") +
+            kQuickly);
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    const Json json = Json::parse(result.output);
+    ASSERT_EQ(json["rows"].size(), 4u);
+    for (const char* key : {"sah_cost", "epo", "lcv", "overlap", "empty_volume", "leaf_size_variation",
+                            "primary_steps_per_ray", "diffuse_mrays_per_s"})
+        EXPECT_TRUE(json["rows"][0][key].is_number()) << key;
+    EXPECT_TRUE(json["rows"][3]["epo"].is_null());
+    EXPECT_EQ(json["predictions"].size(), 3u * 2u * 8u);
+}
+
+TEST_F(Program, BenchTreesEndsWith1WhereAPromiseDoesNotHold) {
+    const std::string scene = "bench trees -s cornell --json - --promise ";
+    const Ended kept = run(scene + "'sah_cost: bvh-sweep-sah <= bvh-object-median'");
+    EXPECT_EQ(kept.exit_code, 0) << kept.error;
+    EXPECT_EQ(Json::parse(kept.output)["rows"][0]["holds"], true);
+    const Ended broken = run(scene + "'sah_cost: bvh-object-median <= 0.5 * bvh-sweep-sah'");
+    EXPECT_EQ(broken.exit_code, 1) << broken.error;
+    EXPECT_EQ(Json::parse(broken.output)["rows"][0]["holds"], false);
+    EXPECT_EQ(run("bench trees -s cornell").exit_code, 0);
+    expect_refusal(scene + "'sah: none <= none'", 2, "did you mean sah_cost?");
 }
 
 TEST_F(Program, BenchRefitNeedsAnAnimatedSceneAndWhatCanBeRefitted) {

@@ -68,7 +68,7 @@ TEST(DrawList, FollowsTheState) {
     state.show_mesh = false;
     state.show_boxes = false;
     state.interface_scale = 2.0f;
-    state.node = 3;
+    state.side().node = 3;
     state.prim = 5;
     const DrawList list = make_draw_list(state, levels, values);
     EXPECT_EQ(list.mesh, MeshLook::Hidden);

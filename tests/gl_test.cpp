@@ -341,14 +341,42 @@ TEST_F(GlTest, APictureStandsBehindTheBoxesRowZeroOnTop) {
     EXPECT_EQ(at(draw(list, front_camera(true)), 100, 10).red, 0);
 
     PictureRenderer pictures;
-    pictures.draw(picture, 1, 1.0f, target_, {0, 0, kSize, 100});
+    pictures.draw(picture, 1, 1.0f, target_, {0, 0, kSize, 100}, {0, 0, 60, 100});
     store_linear(Vec3(0.0f, 1.0f, 0.0f), picture.pixel(0, 0));
-    pictures.draw(picture, 1, 1.0f, target_, {100, 100, 100, 100});  // the same version: not uploaded again
+    pictures.draw(picture, 1, 1.0f, target_, {100, 100, 100, 100},
+                  {100, 100, 100, 100});  // the same version: not uploaded again
     const Image beside = read_pixels(target_);
     EXPECT_EQ(at(beside, 10, 5).red, 255);
     EXPECT_EQ(at(beside, 10, 95).blue, 255);
+    EXPECT_EQ(at(beside, 70, 5).red, 0) << "beside its part";
     EXPECT_EQ(at(beside, 110, 105).green, 0);
     EXPECT_EQ(at(beside, 50, 150).red, 0);
+}
+
+TEST_F(GlTest, AWipeShowsTheBoxesOfEachSetInItsPartAlone) {
+    // Set 0 has a small square, set 1 a large one, around the middle of one picture.
+    const auto levels_of = [](float half) {
+        return make_level_table(root_with_leaves({{Vec3(-half, -half, 0.0f), Vec3(half, half, 0.0f)}}));
+    };
+    const LevelTable small = levels_of(0.5f), large = levels_of(1.5f);
+    renderer_.set_mesh(square(1.9f, -1.0f));
+    renderer_.set_boxes(small, make_box_values(small.list), 0);
+    renderer_.set_boxes(large, make_box_values(large.list), 1);
+    const DrawList list = plain_list(small, {0, 0});
+    const PixelRect all{0, 0, kSize, kSize};
+    renderer_.draw(list, front_camera(true), target_, all, {0, 0, 90, kSize}, 0);
+    renderer_.draw(list, front_camera(true), target_, all, {90, 0, 110, kSize}, 1);
+    const Image image = read_pixels(target_);
+    const auto is_lit = [&](int x, int y) { return at(image, x, y).red > 128; };
+    EXPECT_TRUE(is_lit(75, 100)) << "left edge of the small one";
+    EXPECT_FALSE(is_lit(25, 100)) << "left edge of the large one";
+    EXPECT_FALSE(is_lit(125, 100)) << "right edge of the small one";
+    EXPECT_TRUE(is_lit(175, 100)) << "right edge of the large one";
+    EXPECT_EQ(renderer_.box_counts(0).drawn, 1u);
+    EXPECT_EQ(renderer_.box_counts(1).drawn, 1u);
+    renderer_.clear(1);
+    renderer_.draw(list, front_camera(true), target_, all, {90, 0, 110, kSize}, 1);
+    EXPECT_LT(at(read_pixels(target_), 175, 100).red, 128);
 }
 
 TEST_F(GlTest, DrawsOnlyIntoItsRect) {

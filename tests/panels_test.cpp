@@ -22,7 +22,7 @@ protected:
     static Session session() {
         Session session;
         session.state.scene = "cornell";
-        session.state.recipe = "evh(t=10) > bvh-binned-sah";
+        session.state.side().recipe = "evh(t=10) > bvh-binned-sah";
         return session;
     }
 
@@ -83,10 +83,10 @@ constexpr Vec2 kSliderOfT(170.0f, 151.0f);
 TEST_F(Panels, ADragOfTheSliderChangesTheRecipe) {
     settle();
     drag(kSliderOfT, kSliderOfT + Vec2(60.0f, 0.0f));
-    const Recipe recipe = parse_recipe(viewer_.state.recipe);
+    const Recipe recipe = parse_recipe(viewer_.state.side().recipe);
     EXPECT_STREQ(recipe.references.entry().id, "evh");
-    EXPECT_NE(viewer_.state.recipe, session().state.recipe);
-    EXPECT_NE(viewer_.state.recipe.find("evh(t="), std::string::npos) << viewer_.state.recipe;
+    EXPECT_NE(viewer_.state.side().recipe, session().state.side().recipe);
+    EXPECT_NE(viewer_.state.side().recipe.find("evh(t="), std::string::npos) << viewer_.state.side().recipe;
 }
 
 TEST_F(Panels, DrawWithoutSceneOrStructure) {
@@ -161,7 +161,8 @@ TEST_F(Panels, KeysAreTextWhileAFieldHasTheFocus) {
     EXPECT_TRUE(viewer_.state.show_boxes);
     EXPECT_FALSE(viewer_.state.show_keys);
     EXPECT_FALSE(viewer_.panel_memory.recipe_error.empty()) << "a '?' makes it no recipe";
-    EXPECT_EQ(viewer_.state.recipe, session().state.recipe) << "the recipe stays until the text is one";
+    EXPECT_EQ(viewer_.state.side().recipe, session().state.side().recipe)
+        << "the recipe stays until the text is one";
 }
 
 TEST_F(Panels, TheViewersActionsRunWithoutAWindow) {
@@ -219,7 +220,7 @@ TEST_F(Panels, AFileThatChangedIsReadAgain) {
 class AnimatedPanels : public Panels {
 protected:
     AnimatedPanels() {
-        viewer_.state.recipe = "bvh-spatial-median";
+        viewer_.state.side().recipe = "bvh-spatial-median";
         viewer_.open("kitchen");
         viewer_.wait();
         settle();
@@ -244,7 +245,7 @@ TEST_F(AnimatedPanels, ADragOfTheSliderShowsAnotherFrameFromTheSameView) {
     ASSERT_TRUE(viewer_.state.scene.starts_with("kitchen@frame=")) << viewer_.state.scene;
     ASSERT_TRUE(shows(viewer_.state.scene));
     EXPECT_EQ(viewer_.camera().eye, Vec3(3.0f, 1.0f, 4.0f));
-    EXPECT_EQ(viewer_.state.recipe, "bvh-spatial-median");
+    EXPECT_EQ(viewer_.state.side().recipe, "bvh-spatial-median");
     viewer_.apply({UndoStep{}});
     EXPECT_TRUE(shows("kitchen")) << "a drag is one step";
 }
@@ -271,7 +272,7 @@ TEST_F(AnimatedPanels, PlayShowsOneFrameAfterAnotherAndIsOneStepOfUndo) {
 
 TEST_F(Panels, ACancelledBuildKeepsWhatIsShown) {
     const auto built = viewer_.built();
-    viewer_.state.recipe = "evh(t=30) > bvh-sweep-sah";
+    viewer_.state.side().recipe = "evh(t=30) > bvh-sweep-sah";
     viewer_.update(false);
     EXPECT_TRUE(viewer_.busy());
     viewer_.apply({CancelWork{}});
@@ -281,17 +282,17 @@ TEST_F(Panels, ACancelledBuildKeepsWhatIsShown) {
     EXPECT_TRUE(viewer_.panel_input(Vec2(-1.0f)).cancelled);
     viewer_.apply({BuildAgain{}});
     viewer_.wait();
-    EXPECT_EQ(print(viewer_.built()->recipe), viewer_.state.recipe);
+    EXPECT_EQ(print(viewer_.built()->recipe), viewer_.state.side().recipe);
 }
 
 TEST_F(Panels, LayoutLeavesTheWholeFrameToTheViewWherePanelsAreHidden) {
     ViewerState state;
     state.show_panels = false;
-    EXPECT_EQ(make_layout(state).scene, (ViewRect{0.0f, 0.0f, 1280.0f, 720.0f}));
+    EXPECT_EQ(make_layout(state).sides[0].scene.part, (ViewRect{0.0f, 0.0f, 1280.0f, 720.0f}));
     state.traced = TracedView::Beside;
     const FrameLayout beside = make_layout(state);
-    EXPECT_EQ(beside.scene.width, beside.traced.width);
-    EXPECT_EQ(beside.traced.x + beside.traced.width, 1280.0f);
+    EXPECT_EQ(beside.sides[0].scene.part.width, beside.sides[0].traced.part.width);
+    EXPECT_EQ(beside.sides[0].traced.part.x + beside.sides[0].traced.part.width, 1280.0f);
     state.show_panels = true;
     state.width = 300;
     EXPECT_EQ(make_layout(state).left.width, 0.0f) << "no room for panels";

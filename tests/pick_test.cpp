@@ -43,7 +43,7 @@ PickPoint front(float x, float y, float surface_t = kNoSurface) {
 class Picking : public testing::Test {
 protected:
     std::vector<uint32_t> pick(const PickPoint& point) const {
-        const Visibility visibility = visible_parts(state_, levels_.list, 3);
+        const Visibility visibility = visible_parts(state_.side(), levels_.list, 3);
         return pick_nodes(state_, levels_, visibility, nullptr, point);
     }
     using Nodes = std::vector<uint32_t>;
@@ -71,7 +71,7 @@ TEST_F(Picking, OnlyWhatTheStateShowsIsPicked) {
     state_.show_empty = true;
     EXPECT_EQ(pick(front(175.0f, 100.0f)), (Nodes{4}));
     state_.levels = {0, 2};
-    state_.hidden_nodes = {2};
+    state_.side().hidden_nodes = {2};
     EXPECT_EQ(pick(front(175.0f, 100.0f)), (Nodes{0}));
 }
 
@@ -120,28 +120,28 @@ TEST_F(Picking, PerspectiveLinesArePickedWhereTheyAreSeen) {
 TEST(Marks, AHiddenNodeTakesWhatIsBelowAndTrianglesOfNoOtherLeaf) {
     const NodeList list = small_tree();
     ViewerState state;
-    EXPECT_TRUE(visible_parts(state, list, 3).is_whole());
-    state.hidden_nodes = {1};
-    Visibility seen = visible_parts(state, list, 3);
+    EXPECT_TRUE(visible_parts(state.side(), list, 3).is_whole());
+    state.side().hidden_nodes = {1};
+    Visibility seen = visible_parts(state.side(), list, 3);
     EXPECT_EQ(seen.nodes, (std::vector<uint8_t>{1, 0, 1, 1, 1}));
     EXPECT_EQ(seen.triangles, (std::vector<uint8_t>{0, 1, 1})) << "1 is in leaf 3 too";
-    state.hidden_nodes = {2};
-    seen = visible_parts(state, list, 3);
+    state.side().hidden_nodes = {2};
+    seen = visible_parts(state.side(), list, 3);
     EXPECT_EQ(seen.nodes, (std::vector<uint8_t>{1, 1, 0, 0, 0}));
     EXPECT_EQ(seen.triangles, (std::vector<uint8_t>{1, 1, 0}));
-    state.hidden_nodes = {99};
-    EXPECT_TRUE(visible_parts(state, list, 3).is_whole()) << "a node that does not exist";
+    state.side().hidden_nodes = {99};
+    EXPECT_TRUE(visible_parts(state.side(), list, 3).is_whole()) << "a node that does not exist";
 }
 
 TEST(Marks, AnIsolatedNodeIsShownWithWhatIsBelow) {
     const NodeList list = small_tree();
     ViewerState state;
-    state.isolated = 2;
-    Visibility seen = visible_parts(state, list, 3);
+    state.side().isolated = 2;
+    Visibility seen = visible_parts(state.side(), list, 3);
     EXPECT_EQ(seen.nodes, (std::vector<uint8_t>{0, 0, 1, 1, 1}));
     EXPECT_EQ(seen.triangles, (std::vector<uint8_t>{0, 1, 1}));
-    state.hidden_nodes = {3};
-    seen = visible_parts(state, list, 3);
+    state.side().hidden_nodes = {3};
+    seen = visible_parts(state.side(), list, 3);
     EXPECT_EQ(seen.nodes, (std::vector<uint8_t>{0, 0, 1, 0, 1}));
     EXPECT_EQ(seen.triangles, (std::vector<uint8_t>{0, 0, 0}));
     Visits visits;

@@ -16,7 +16,7 @@ protected:
     static Session session() {
         Session session;
         session.state.scene = "cornell";
-        session.state.recipe = "bvh-binned-sah(max-leaf-size=2)";
+        session.state.side().recipe = "bvh-binned-sah(max-leaf-size=2)";
         session.state.levels = {0, 999};
         return session;
     }
@@ -58,15 +58,15 @@ protected:
 
 TEST_F(Selecting, AClickSelectsANodeAndTheNextClickThereAnother) {
     click(middle_);
-    const uint32_t first = state().node;
+    const uint32_t first = state().side().node;
     ASSERT_LT(first, nodes().nodes.size());
-    EXPECT_EQ(state().side, SidePanel::Node);
+    EXPECT_EQ(state().side_panel, SidePanel::Node);
     click(middle_);
-    EXPECT_NE(state().node, first);
+    EXPECT_NE(state().side().node, first);
     click({310.0f, 20.0f});  // beside the scene
-    EXPECT_EQ(state().node, kNoIndex);
+    EXPECT_EQ(state().side().node, kNoIndex);
     viewer_.apply({UndoStep{}});
-    EXPECT_NE(state().node, kNoIndex) << "a selection is a step to undo";
+    EXPECT_NE(state().side().node, kNoIndex) << "a selection is a step to undo";
 }
 
 TEST_F(Selecting, ADragSelectsNothing) {
@@ -82,71 +82,71 @@ TEST_F(Selecting, ADragSelectsNothing) {
     frame();
     io.MouseDown[0] = false;
     frame();
-    EXPECT_EQ(state().node, kNoIndex);
+    EXPECT_EQ(state().side().node, kNoIndex);
 }
 
 TEST_F(Selecting, ArrowsWalkTheTree) {
-    viewer_.state.node = 0;
+    viewer_.state.side().node = 0;
     frame();
     press(key::kDown);
-    const uint32_t child = state().node;
+    const uint32_t child = state().side().node;
     EXPECT_EQ(nodes().nodes[child].parent, 0u);
     press(key::kRight);
-    EXPECT_NE(state().node, child);
-    EXPECT_EQ(nodes().nodes[state().node].parent, 0u);
+    EXPECT_NE(state().side().node, child);
+    EXPECT_EQ(nodes().nodes[state().side().node].parent, 0u);
     press(key::kLeft);
-    EXPECT_EQ(state().node, child);
+    EXPECT_EQ(state().side().node, child);
     press(key::kUp);
-    EXPECT_EQ(state().node, 0u);
+    EXPECT_EQ(state().side().node, 0u);
     press(key::kUp);
-    EXPECT_EQ(state().node, 0u);
+    EXPECT_EQ(state().side().node, 0u);
     press(key::kEscape);
-    EXPECT_EQ(state().node, kNoIndex);
+    EXPECT_EQ(state().side().node, kNoIndex);
 }
 
 TEST_F(Selecting, HidingAndIsolatingChangeThePictureAndArePutBack) {
     const Image whole = headless_.frame().capture(viewer_);
-    viewer_.state.node = 1;
+    viewer_.state.side().node = 1;
     frame();
     press(key::kDelete);
-    EXPECT_EQ(state().hidden_nodes, (std::vector<uint32_t>{1}));
-    EXPECT_EQ(state().node, kNoIndex);
+    EXPECT_EQ(state().side().hidden_nodes, (std::vector<uint32_t>{1}));
+    EXPECT_EQ(state().side().node, kNoIndex);
     const Image hidden = headless_.frame().capture(viewer_);
     EXPECT_NE(hidden, whole);
     EXPECT_FALSE(viewer_.visibility()->shows(1));
     press(key::kDelete, /*shift=*/true);
-    EXPECT_TRUE(state().hidden_nodes.empty());
-    viewer_.state.side = SidePanel::Levels;
+    EXPECT_TRUE(state().side().hidden_nodes.empty());
+    viewer_.state.side_panel = SidePanel::Levels;
     EXPECT_EQ(headless_.frame().capture(viewer_).rgba.size(), whole.rgba.size());
 
-    viewer_.state.node = 1;
+    viewer_.state.side().node = 1;
     frame();
     press('I');
-    EXPECT_EQ(state().isolated, 1u);
+    EXPECT_EQ(state().side().isolated, 1u);
     EXPECT_FALSE(viewer_.visibility()->shows(0));
     EXPECT_TRUE(viewer_.visibility()->shows(1));
     EXPECT_LT(headless_.frame().scene_renderer().box_counts().drawn, nodes().nodes.size() - 1);
     press('I');
-    EXPECT_EQ(state().isolated, kNoIndex);
+    EXPECT_EQ(state().side().isolated, kNoIndex);
 }
 
 TEST_F(Selecting, FocusLooksAtTheSelectedNode) {
-    viewer_.state.node = static_cast<uint32_t>(nodes().nodes.size()) - 1;
+    viewer_.state.side().node = static_cast<uint32_t>(nodes().nodes.size()) - 1;
     frame();
     press('F');
-    const DVec3 center = nodes().nodes[state().node].bounds.center();
+    const DVec3 center = nodes().nodes[state().side().node].bounds.center();
     EXPECT_LT(glm::distance(DVec3(viewer_.camera().target), center), 1e-3);
 }
 
 TEST_F(Selecting, AnotherRecipeForgetsNodesUndoBringsThemBack) {
     click(middle_);
-    viewer_.state.hidden_nodes = {3};
+    viewer_.state.side().hidden_nodes = {3};
     frame();
     const ViewerState before = state();
-    viewer_.state.recipe = "bvh-sweep-sah";
+    viewer_.state.side().recipe = "bvh-sweep-sah";
     frame();
-    EXPECT_EQ(state().node, kNoIndex);
-    EXPECT_TRUE(state().hidden_nodes.empty());
+    EXPECT_EQ(state().side().node, kNoIndex);
+    EXPECT_TRUE(state().side().hidden_nodes.empty());
     viewer_.apply({UndoStep{}});
     frame();
     EXPECT_EQ(state(), before);
@@ -176,7 +176,7 @@ TEST_F(Selecting, VisitsOfThePictureAreTheSumOfItsRays) {
     viewer_.state.visit_rays = VisitRays::Picture;
     viewer_.wait();
     ASSERT_TRUE(viewer_.cast().visits);
-    const ViewRect view = make_layout(state()).scene;
+    const ViewRect view = make_layout(state()).side(Side::A).scene.rect;
     const int width = static_cast<int>(view.width), height = static_cast<int>(view.height);
     const std::vector<Ray> rays = picture_rays(viewer_.camera(), width, height);
     std::vector<Hit> hits(rays.size());
@@ -191,7 +191,7 @@ TEST_F(Selecting, VisitsOfThePictureAreTheSumOfItsRays) {
 }
 
 TEST_F(Selecting, VerifyIsOfTheViewItWasAskedFor) {
-    viewer_.state.side = SidePanel::Verify;
+    viewer_.state.side_panel = SidePanel::Verify;
     viewer_.state.traced = TracedView::Beside;
     viewer_.state.show_times = false;  // nothing to time
     viewer_.state.verify_rays = 200;

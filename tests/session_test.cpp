@@ -28,7 +28,13 @@ Session unusual_session() {
     Session session;
     ViewerState& s = session.state;
     s.scene = "spaceship@scale=2";
-    s.recipe = "esc(s=12) > bvh-sweep-sah";
+    s.sides[0] = {
+        .recipe = "esc(s=12) > bvh-sweep-sah", .node = 0, .hidden_nodes = {5, 3}, .isolated = 2147483647};
+    s.sides[1] = {.recipe = "bvh-binned-sah", .node = 4, .hidden_nodes = {1}, .isolated = 2};
+    s.active = Side::B;
+    s.compare_view = CompareView::Beside;
+    s.wipe = 0.125f;
+    s.heat_difference = true;
     s.mode = Mode::Fast;
     s.camera = Camera{.eye = {0.1f, -2.5e-3f, 3e7f}, .target = {1.0f / 3.0f, 0.0f, 0.0f}};
     s.camera->up = {0.0f, 0.0f, 1.0f};
@@ -44,14 +50,11 @@ Session unusual_session() {
     s.box_color = BoxColor::Visits;
     s.visit_rays = VisitRays::Picture;
     s.ray = PickedRay{{0.5f, 1e-7f, -3.0f}, {0.0f, -1.0f, 1.0f / 3.0f}};
-    s.node = 0;
     s.prim = 77;
-    s.hidden_nodes = {5, 3};
-    s.isolated = 2147483647;
-    s.side = SidePanel::Verify;
+    s.side_panel = SidePanel::Verify;
     s.verify_rays = 100000;
     s.traced = TracedView::Over;
-    s.shading = Shading::HeatTests;
+    s.shading = Shading::HeatExact;
     s.spp = 7;
     s.color_map = ColorMap::Batlow;
     s.log_heat = true;
@@ -80,6 +83,15 @@ TEST(Session, LeavesDefaultsOut) {
     Session session;
     session.state.show_wire = true;
     EXPECT_EQ(print_session(session, "."), "{\n    \"version\": 1,\n    \"wire\": true\n}\n");
+}
+
+TEST(Session, ASecondRecipeAloneComparesByAWipeInTheMiddle) {
+    const ViewerState state = parse(R"({"version": 1, "recipe_b": "bvh-sweep-sah"})").state;
+    EXPECT_TRUE(state.compares());
+    EXPECT_EQ(state.compare_view, CompareView::Wipe);
+    EXPECT_EQ(state.wipe, 0.5f);
+    EXPECT_EQ(state.active_side(), Side::A);
+    EXPECT_EQ(parse(R"({"version": 1, "active": "b"})").state.active_side(), Side::A) << "there is no B";
 }
 
 TEST(Session, KeepsUnknownKeysAndReportsThem) {
@@ -137,6 +149,10 @@ TEST(Session, RefusesWrongTypesAndValuesOutOfRange) {
     EXPECT_NE(with(R"("views": {"10": {}})").find("\"9\""), std::string::npos);
     EXPECT_NE(with(R"("views": [])"), "");
     EXPECT_NE(with(R"("recipe": 3)").find("text"), std::string::npos);
+    EXPECT_NE(with(R"("recipe_b": [])").find("text"), std::string::npos);
+    EXPECT_NE(with(R"("compare": "flicker")").find("\"beside\""), std::string::npos);
+    EXPECT_NE(with(R"("wipe": 1.5)"), "");
+    EXPECT_NE(with(R"("active": "c")").find("\"b\""), std::string::npos);
     EXPECT_NE(with(R"("node": -1)"), "");
     EXPECT_NE(with(R"("node": 4294967295)"), "") << "that is no node";
     EXPECT_NE(with(R"("hidden": 3)"), "");

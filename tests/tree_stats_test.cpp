@@ -101,6 +101,56 @@ TEST(TreeStats, AParentOfManyIsLeftOutOfTheOverlapAndCounted) {
     EXPECT_EQ(stats.levels[1].sibling_overlap, 0.0);
 }
 
+/// Root 4 x 2 x 2 over 2 x 2 x 2 (half area 12), which is over 1 x 2 x 2 (8) and 1 x 1 x 1 (3), and over
+/// 1 x 2 x 2.
+NodeList nodes_with_gaps() {
+    NodeList list;
+    list.nodes = {inner({Vec3(0), {4, 2, 2}}, kNoIndex, 0), inner({Vec3(0), Vec3(2)}, 0, 1),
+                  leaf({{3, 0, 0}, {4, 2, 2}}, 0, 1, 0, 1), leaf({Vec3(0), {1, 2, 2}}, 1, 2, 1, 1),
+                  leaf({Vec3(1), Vec3(2)}, 1, 2, 2, 4)};
+    list.ref_prims = {0, 1, 2, 3, 4, 5};
+    return list;
+}
+
+TEST(TreeStats, EmptyVolumeByHand) {
+    const TreeStats stats = tree_stats(make_level_table(nodes_with_gaps()));
+    EXPECT_EQ(stats.levels[0].empty_volume, 0.0);
+    EXPECT_DOUBLE_EQ(stats.levels[1].empty_volume, 4.0 / 16.0);
+    EXPECT_DOUBLE_EQ(stats.levels[2].empty_volume, 3.0 / 8.0);
+    EXPECT_DOUBLE_EQ(stats.empty_volume, (20.0 * 0.25 + 12.0 * 0.375) / 32.0);
+}
+
+TEST(TreeStats, EmptyVolumeOfALevelIsWeightedByTheParentsAreaAndOfFlatBoxesIsArea) {
+    // Under the root a cube of half area 12, a quarter full, and a flat box of half area 4, half full.
+    NodeList list;
+    list.nodes = {inner({Vec3(0), {4, 2, 2}}, kNoIndex, 0), inner({Vec3(0), Vec3(2)}, 0, 1),
+                  inner({{4, 0, 0}, {4, 2, 2}}, 0, 1), leaf({Vec3(0), {2, 1, 1}}, 1, 2, 0, 1),
+                  leaf({{4, 0, 0}, {4, 2, 1}}, 2, 2, 1, 1)};
+    list.ref_prims = {0, 1};
+    const TreeStats stats = tree_stats(make_level_table(list));
+    EXPECT_DOUBLE_EQ(stats.levels[2].empty_volume, (12.0 * 0.75 + 4.0 * 0.5) / 16.0);
+    EXPECT_DOUBLE_EQ(stats.levels[1].empty_volume, 0.5);
+}
+
+TEST(TreeStats, CellsThatFillTheirParentLeaveNothingEmpty) {
+    NodeList list = three_nodes(1.0f / 3.0f);
+    list.nodes[1].bounds.upper.x = list.nodes[2].bounds.lower.x = 0.1f;
+    EXPECT_EQ(tree_stats(make_level_table(list)).levels[1].empty_volume, 0.0);
+}
+
+TEST(TreeStats, OverlapOfTheWholeTreeIsRelativeToTheRoot) {
+    EXPECT_DOUBLE_EQ(tree_stats(make_level_table(three_nodes())).sibling_overlap, 8.0 / 20.0);
+}
+
+TEST(TreeStats, LeafSizesVaryAroundTheirMeanEmptyLeavesLeftOut) {
+    const TreeStats stats = tree_stats(make_level_table(nodes_with_gaps()));  // 1, 1 and 4
+    EXPECT_DOUBLE_EQ(stats.mean_leaf_size, 2.0);
+    EXPECT_DOUBLE_EQ(stats.leaf_size_variation, std::sqrt((1.0 + 1.0 + 4.0) / 3.0) / 2.0);
+    NodeList list = nodes_with_gaps();
+    list.nodes[2].ref_count = 0;
+    EXPECT_DOUBLE_EQ(tree_stats(make_level_table(list)).mean_leaf_size, 2.5);
+}
+
 TEST(OverlapHalfArea, IsZeroForBoxesThatOnlyTouch) {
     const Box box{Vec3(0), Vec3(2)};
     EXPECT_EQ(overlap_half_area(box, {{2, 0, 0}, {4, 2, 2}}), 0.0);  // kd-tree cells

@@ -7,7 +7,7 @@ namespace {
 
 ViewerState with_recipe(const char* recipe) {
     ViewerState state;
-    state.recipe = recipe;
+    state.side().recipe = recipe;
     return state;
 }
 
@@ -15,11 +15,11 @@ TEST(Undo, GoesBackAndForwardThroughEverySetting) {
     Undo undo(with_recipe("a"));
     undo.note(with_recipe("b"), false);
     undo.note(with_recipe("c"), false);
-    EXPECT_EQ(undo.back(with_recipe("c"))->recipe, "b");
-    EXPECT_EQ(undo.back(with_recipe("b"))->recipe, "a");
+    EXPECT_EQ(undo.back(with_recipe("c"))->side().recipe, "b");
+    EXPECT_EQ(undo.back(with_recipe("b"))->side().recipe, "a");
     EXPECT_FALSE(undo.back(with_recipe("a")));
-    EXPECT_EQ(undo.forward(with_recipe("a"))->recipe, "b");
-    EXPECT_EQ(undo.forward(with_recipe("b"))->recipe, "c");
+    EXPECT_EQ(undo.forward(with_recipe("a"))->side().recipe, "b");
+    EXPECT_EQ(undo.forward(with_recipe("b"))->side().recipe, "c");
     EXPECT_FALSE(undo.forward(with_recipe("c")));
 }
 
@@ -28,13 +28,13 @@ TEST(Undo, ADragIsOneStep) {
     for (const char* recipe : {"b", "c", "d"}) undo.note(with_recipe(recipe), /*editing=*/true);
     undo.note(with_recipe("d"), /*editing=*/false);
     EXPECT_EQ(undo.back_count(), 1u);
-    EXPECT_EQ(undo.back(with_recipe("d"))->recipe, "a");
+    EXPECT_EQ(undo.back(with_recipe("d"))->side().recipe, "a");
 }
 
 TEST(Undo, AnUnnotedChangeIsAStepToo) {
     Undo undo(with_recipe("a"));
-    EXPECT_EQ(undo.back(with_recipe("b"))->recipe, "a");
-    EXPECT_EQ(undo.forward(with_recipe("a"))->recipe, "b");
+    EXPECT_EQ(undo.back(with_recipe("b"))->side().recipe, "a");
+    EXPECT_EQ(undo.forward(with_recipe("a"))->side().recipe, "b");
 }
 
 TEST(Undo, AChangeForgetsWhatWasUndone) {
@@ -43,7 +43,7 @@ TEST(Undo, AChangeForgetsWhatWasUndone) {
     undo.back(with_recipe("b"));
     undo.note(with_recipe("c"), false);
     EXPECT_FALSE(undo.forward(with_recipe("c")));
-    EXPECT_EQ(undo.back(with_recipe("c"))->recipe, "a");
+    EXPECT_EQ(undo.back(with_recipe("c"))->side().recipe, "a");
 }
 
 TEST(Undo, TheWindowKeepsItsSize) {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 Session small_session() {
     Session session;
     session.state.scene = "two-triangles@subdivide=4";
-    session.state.recipe = "evh(t=10) > bvh-binned-sah";
+    session.state.side().recipe = "evh(t=10) > bvh-binned-sah";
     session.state.width = 820;
     session.state.height = 420;
     return session;
@@ -50,13 +50,13 @@ TEST(ViewerFrame, ADragOfTheSliderOfTRebuildsAndDrawsAnotherPicture) {
     frame(230.0f, false);
     viewer.wait();
     EXPECT_NE(viewer.built(), built);
-    EXPECT_EQ(print(viewer.built()->recipe), viewer.state.recipe);
+    EXPECT_EQ(print(viewer.built()->recipe), viewer.state.side().recipe);
     EXPECT_GT(viewer.built()->references->refs.size(), built->references->refs.size());
 
     const Image after = headless.frame().capture(viewer);
     EXPECT_GT(different_pixels(before, after), 1000u);
     viewer.apply({UndoStep{}});
-    EXPECT_EQ(viewer.state.recipe, small_session().state.recipe) << "the drag is one step";
+    EXPECT_EQ(viewer.state.side().recipe, small_session().state.side().recipe) << "the drag is one step";
     EXPECT_EQ(headless.messages().first_error, "");
 }
 

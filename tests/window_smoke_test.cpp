@@ -98,7 +98,7 @@ TEST(WindowSmoke, StartsDrawsTakesADragOpensAFileAndQuits) {
 
     Session session;
     session.state.scene = "cornell";
-    session.state.recipe = "evh(t=8) > bvh-binned-sah";
+    session.state.side().recipe = "evh(t=8) > bvh-binned-sah";
     session.state.width = 1000;
     session.state.height = 560;
     Viewer viewer(session);
@@ -126,10 +126,10 @@ TEST(WindowSmoke, StartsDrawsTakesADragOpensAFileAndQuits) {
     for (int px = 150; px <= 240; px += 15) point_to(px);
     button(false);
     XCloseDisplay(x);
-    EXPECT_NE(viewer.state.recipe, session.state.recipe) << "the drag changed nothing";
+    EXPECT_NE(viewer.state.side().recipe, session.state.side().recipe) << "the drag changed nothing";
     EXPECT_TRUE(step_until(window, [&] {
-        return !viewer.busy() && print(viewer.built()->recipe) == viewer.state.recipe;
-    })) << viewer.state.recipe;
+        return !viewer.busy() && print(viewer.built()->recipe) == viewer.state.side().recipe;
+    })) << viewer.state.side().recipe;
 
     // A file dropped on the window: the callback that the window has registered.
     const GLFWdropfun drop = glfwSetDropCallback(window.handle(), nullptr);

@@ -15,10 +15,12 @@ constexpr Command kSuites[] = {
     {"error", "run time against error: both modes and plain double precision", run_bench_error},
     {"interact", "how quickly the program answers", run_bench_interact},
     {"lecture", "the lecture's comparison of structures: memory, build, rays", run_bench_lecture},
+    {"measures", "which measure of a tree tells its rays per second", run_bench_measures},
     {"peers", "recipes side by side with Embree: rays per second, build, bytes, wrong answers",
      run_bench_peers},
     {"refit", "refit against rebuild, by frame of an animated scene", run_bench_refit},
     {"scale", "build, bytes and rays per second of one terrain in growing sizes", run_bench_scale},
+    {"trees", "what builders and transforms promise about their trees", run_bench_trees},
 };
 
 void print_help() {

@@ -12,8 +12,9 @@ namespace boxwood {
 /// The options that the suites over structures share.
 class StructureOptions {
 public:
-    /// `default_scenes`: sentence for the help.
-    void add_to(Options& options, const char* default_scenes);
+    /// `default_scenes`, `default_recipes`: sentences for the help; `initial`: what is not given.
+    void add_to(Options& options, const char* default_scenes, const bench::StructureSettings& initial = {},
+                const char* default_recipes = "every builder, and every transform on what suits it best");
     /// After parse.
     const std::vector<std::string>& scenes(std::vector<std::string> if_none);
     /// Recipes checked, the camera that of the scene or what was given.
@@ -26,8 +27,8 @@ public:
 private:
     std::vector<std::string> scenes_, texts_;
     std::string json_;
-    int ray_count_ = 40000, rounds_ = 5, builds_ = 3;
-    double round_ms_ = 50.0, patience_ = 60.0;
+    int ray_count_ = 0, rounds_ = 0, builds_ = 0;
+    double round_ms_ = 0.0, patience_ = 0.0;
     size_t mode_ = 0;
     CameraOptions camera_;
 };

@@ -2,15 +2,16 @@
 
 #include "app/cli/options.h"
 #include "app/command/commands.h"
+#include "app/command/shown_recipes.h"
 #include "app/viewer/headless.h"
 #include "core/base/file.h"
-#include "core/catalog/recipe.h"
 #include "core/render/png.h"
 
 namespace boxwood {
 
 ExitCode run_shot(Arguments arguments) {
-    std::string source, output, recipe;
+    std::string source, output;
+    std::vector<std::string> recipes;
     PixelSize size;
     bool no_ui = false;
     Options options("shot",
@@ -21,7 +22,7 @@ ExitCode run_shot(Arguments arguments) {
     options.required_text("-o,--output", "FILE", output, "the PNG to write");
     options.size("--size", size, "of the picture in pixels");
     options.flag("--no-ui", no_ui, "the 3D view alone, without panels");
-    options.text("--recipe", "RECIPE", recipe, "such as \"evh(t=16) > bvh-sweep-sah\"");
+    options.texts("--recipe", "RECIPE", recipes, kShownRecipesHelp);
     if (!options.parse(arguments)) return ExitCode::Done;
 
     check_writable(output);
@@ -32,7 +33,7 @@ ExitCode run_shot(Arguments arguments) {
         session.state.scene = source;
     }
     for (const std::string& note : session.notes) std::cerr << source << ": " << note << '\n';
-    if (options.given("--recipe")) session.state.recipe = print(parse_recipe(recipe));
+    show_recipes(recipes, session.state);
     if (options.given("--size")) {
         session.state.width = size.width;
         session.state.height = size.height;

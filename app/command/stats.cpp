@@ -1,9 +1,17 @@
+#include "app/cli/progress.h"
 #include "app/command/commands.h"
 #include "app/command/shared.h"
+#include "core/measure/end_point_overlap.h"
 #include "core/measure/tree_stats.h"
 
 namespace boxwood {
 namespace {
+
+double epo_of(const Built& built) {
+    Task task;
+    const Progress progress(built.scene->title + ": end-point overlap of " + print(built.recipe), task);
+    return end_point_overlap(built.levels->list, built.scene->mesh, task).total;
+}
 
 ReportRow stats_row(const Built& built) {
     const TreeStats stats = tree_stats(*built.levels);
@@ -20,6 +28,7 @@ ReportRow stats_row(const Built& built) {
         .set("levels", uint64_t{stats.levels.size()})
         .set("bytes", uint64_t{built.structure.byte_count()})
         .set("sah_cost", stats.sah_cost)
+        .set("epo", epo_of(built))
         .set("build_ms", built.references_ms + built.build_ms)
         .set("skipped", skipped);
 }
@@ -40,8 +49,10 @@ ExitCode run_stats(Arguments arguments) {
     options.footer(
         "references: primitives in leaves, each once a leaf; references_made: before duplicates were "
         "removed;\n"
-        "bytes: of the structure; sah_cost: expected cost of a random ray in triangle tests; build_ms:\n"
-        "references and builder; skipped: what was left out or needed no work, by reason.\n\n" +
+        "bytes: of the structure; sah_cost: expected cost of a random ray in triangle tests; epo: cost of "
+        "nodes\n"
+        "around a random point of the surface that its triangle is not in, - where nodes are no boxes;\n"
+        "build_ms: references and builder; skipped: what was left out or needed no work, by reason.\n\n" +
         recipe_help());
     if (!options.parse(arguments)) return ExitCode::Done;
     if (texts.empty()) texts.push_back(kDefaultRecipe);

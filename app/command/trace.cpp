@@ -14,7 +14,7 @@ namespace {
 std::string session_text(const Built& built, const TraceSettings& settings, const std::string& folder) {
     Session session;
     session.state.scene = built.scene->spec;
-    session.state.recipe = print(built.recipe);
+    session.state.side().recipe = print(built.recipe);
     session.state.mode = settings.mode;
     session.state.camera = settings.camera;
     session.state.traced = TracedView::Over;

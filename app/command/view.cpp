@@ -1,17 +1,18 @@
 #include "app/cli/options.h"
 #include "app/command/commands.h"
+#include "app/command/shown_recipes.h"
 #include "app/viewer/window.h"
-#include "core/catalog/recipe.h"
 
 namespace boxwood {
 
 ExitCode run_view(Arguments arguments) {
-    std::string source, recipe, session_file;
+    std::string source, session_file;
+    std::vector<std::string> recipes;
     PixelSize size;
     bool watch = false;
     Options options("view", "Opens the window. Without SCENE it shows the built-in atrium.");
     options.argument("SCENE", source, /*required=*/false, "scene, session file, or picture with a session");
-    options.text("--recipe", "RECIPE", recipe, "such as \"evh(t=16) > bvh-sweep-sah\"");
+    options.texts("--recipe", "RECIPE", recipes, kShownRecipesHelp);
     options.text("--session", "FILE", session_file, "session to start with; SCENE replaces its scene");
     options.size("--size", size, "of the window");
     options.flag("--watch", watch, "open the scene's file again whenever it changes");
@@ -32,7 +33,7 @@ ExitCode run_view(Arguments arguments) {
         session.state.scene = source;
         if (has_session) session.state.camera.reset();
     }
-    if (options.given("--recipe")) session.state.recipe = print(parse_recipe(recipe));
+    show_recipes(recipes, session.state);
     if (options.given("--size")) {
         session.state.width = size.width;
         session.state.height = size.height;

@@ -81,27 +81,33 @@ void MeshLayer::upload(const Mesh& mesh, const UnitSpace& space) {
         });
         chunk.corners = make_buffer(std::as_bytes(std::span(corners)));
         chunk.triangles = make_buffer(std::as_bytes(std::span(triangles)));
-        chunk.marks = make_empty_buffer(mark_words(chunk.count) * sizeof(uint32_t));
+        for (Buffer& marks : chunk.marks)
+            marks = make_empty_buffer(mark_words(chunk.count) * sizeof(uint32_t));
         chunk.vertex_array = make_corner_array(chunk.corners);
         chunks_.push_back(std::move(chunk));
         ++upload_count_;
     }
 }
 
-void MeshLayer::upload_marks(std::span<const uint8_t> marks) {
+void MeshLayer::upload_marks(std::span<const uint8_t> marks, size_t set) {
     for (Chunk& chunk : chunks_) {
         const std::vector<uint32_t> words = pack_marks(marks.subspan(chunk.first, chunk.count));
-        chunk.marks = make_buffer(std::as_bytes(std::span(words)));
+        chunk.marks[set] = make_buffer(std::as_bytes(std::span(words)));
         ++upload_count_;
     }
 }
 
-void MeshLayer::draw(const Program& program, uint32_t selected) const {
+void MeshLayer::clear_marks(size_t set) {
+    for (Chunk& chunk : chunks_)
+        chunk.marks[set] = make_empty_buffer(mark_words(chunk.count) * sizeof(uint32_t));
+}
+
+void MeshLayer::draw(const Program& program, uint32_t selected, size_t set) const {
     for (const Chunk& chunk : chunks_) {
         const bool is_here = selected >= chunk.first && selected - chunk.first < chunk.count;
         program.set("selected", is_here ? static_cast<int>(selected - chunk.first) : -1);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, chunk.triangles.name());
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, chunk.marks.name());
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, chunk.marks[set].name());
         glBindVertexArray(chunk.vertex_array.name());
         glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * chunk.count));
     }
@@ -110,7 +116,7 @@ void MeshLayer::draw(const Program& program, uint32_t selected) const {
 size_t MeshLayer::byte_count() const {
     size_t bytes = 0;
     for (const Chunk& chunk : chunks_) {
-        bytes += chunk.count * (3 * sizeof(Vec3) + sizeof(TriangleData)) + mark_words(chunk.count) * 4;
+        bytes += chunk.count * (3 * sizeof(Vec3) + sizeof(TriangleData)) + 2 * mark_words(chunk.count) * 4;
     }
     return bytes;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,11 +15,13 @@ namespace boxwood {
 class MeshLayer {
 public:
     void upload(const Mesh& mesh, const UnitSpace& space);
-    /// TriangleMark bits of each triangle.
-    void upload_marks(std::span<const uint8_t> marks);
+    /// TriangleMark bits of each triangle, for one of two structures over the surface: set 0 or 1.
+    void upload_marks(std::span<const uint8_t> marks, size_t set);
+    void clear_marks(size_t set);
 
-    /// Draws all triangles with the program in use, which is `program`; selected: triangle or kNoIndex.
-    void draw(const Program& program, uint32_t selected) const;
+    /// Draws all triangles, marked by that set, with the program in use, which is `program`; selected:
+    /// triangle or kNoIndex.
+    void draw(const Program& program, uint32_t selected, size_t set) const;
 
     size_t byte_count() const;
     uint64_t upload_count() const { return upload_count_; }
@@ -26,7 +29,8 @@ public:
 private:
     struct Chunk {
         VertexArray vertex_array;
-        Buffer corners, triangles, marks;
+        Buffer corners, triangles;
+        std::array<Buffer, 2> marks;
         uint32_t first = 0;
         uint32_t count = 0;
     };

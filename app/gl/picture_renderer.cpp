@@ -3,13 +3,14 @@
 namespace boxwood {
 
 void PictureRenderer::draw(const Image& image, uint64_t version, float opacity, RenderTarget& target,
-                           const PixelRect& rect) {
-    if (rect.width <= 0 || rect.height <= 0) return;
+                           const PixelRect& rect, const PixelRect& part) {
+    if (rect.width <= 0 || rect.height <= 0 || part.width <= 0 || part.height <= 0) return;
     set(image, version);
-    target.bind_image(rect);
-    glDisable(GL_SCISSOR_TEST);
+    target.bind_image(rect, part);
+    glEnable(GL_SCISSOR_TEST);
     glDisable(GL_DEPTH_TEST);
     fill(opacity);
+    glDisable(GL_SCISSOR_TEST);
 }
 
 void PictureRenderer::set(const Image& image, uint64_t version) {

@@ -12,9 +12,9 @@ namespace boxwood {
 /// where `version` differs from the last one's; versions begin with 1.
 class PictureRenderer {
 public:
-    /// opacity in [0, 1]. Scaled to fill the rect.
+    /// opacity in [0, 1]. Scaled to fill the rect, of which only `part` is drawn.
     void draw(const Image& image, uint64_t version, float opacity, RenderTarget& target,
-              const PixelRect& rect);
+              const PixelRect& rect, const PixelRect& part);
 
     /// The two halves of draw(), for a picture that something else is drawn over.
     void set(const Image& image, uint64_t version);

@@ -10,10 +10,10 @@ constexpr int kSampleCount = 4;
 /// OpenGL's rows go upwards.
 int lower_row(const PixelRect& rect, int height) { return height - rect.y - rect.height; }
 
-void bind(GLuint framebuffer, const PixelRect& rect, int height) {
+void bind(GLuint framebuffer, const PixelRect& rect, const PixelRect& part, int height) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(rect.x, lower_row(rect, height), rect.width, rect.height);
-    glScissor(rect.x, lower_row(rect, height), rect.width, rect.height);
+    glScissor(part.x, lower_row(part, height), part.width, part.height);
 }
 
 }  // namespace
@@ -54,8 +54,8 @@ void RenderTarget::clear(float grey) {
     glClearNamedFramebufferfv(image_framebuffer_.name(), GL_COLOR, 0, color);
 }
 
-void RenderTarget::bind_samples(const PixelRect& rect) const {
-    bind(sample_framebuffer_.name(), rect, height_);
+void RenderTarget::bind_samples(const PixelRect& rect, const PixelRect& part) const {
+    bind(sample_framebuffer_.name(), rect, part, height_);
 }
 
 void RenderTarget::resolve(const PixelRect& rect) const {
@@ -66,7 +66,9 @@ void RenderTarget::resolve(const PixelRect& rect) const {
                            row + rect.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-void RenderTarget::bind_image(const PixelRect& rect) const { bind(image_framebuffer_.name(), rect, height_); }
+void RenderTarget::bind_image(const PixelRect& rect, const PixelRect& part) const {
+    bind(image_framebuffer_.name(), rect, part, height_);
+}
 
 void RenderTarget::show(int window_width, int window_height) const {
     const int width = std::min(width_, window_width);

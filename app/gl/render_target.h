@@ -27,12 +27,13 @@ public:
     /// Clears the whole image to this sRGB-coded grey.
     void clear(float grey);
 
-    /// Lets the following calls draw into the samples of `rect`.
-    void bind_samples(const PixelRect& rect) const;
+    /// Lets the following calls draw into the samples of `rect`; of them, with GL_SCISSOR_TEST, `part` alone.
+    void bind_samples(const PixelRect& rect, const PixelRect& part) const;
     /// Takes the samples of `rect` over into the image.
     void resolve(const PixelRect& rect) const;
-    /// Lets the following calls draw into `rect` of the image.
-    void bind_image(const PixelRect& rect) const;
+    /// Lets the following calls draw into `rect` of the image; with GL_SCISSOR_TEST into `part` alone.
+    void bind_image(const PixelRect& rect, const PixelRect& part) const;
+    void bind_image(const PixelRect& rect) const { bind_image(rect, rect); }
     /// Copies the image to the window's back buffer, the upper left corners on each other.
     void show(int window_width, int window_height) const;
 

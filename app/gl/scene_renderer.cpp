@@ -1,6 +1,7 @@
 #include "app/gl/scene_renderer.h"
 
 #include <algorithm>
+#include <array>
 
 #include "app/gl/axis_cross.h"
 #include "app/gl/box_layer.h"
@@ -61,19 +62,23 @@ struct SceneRenderer::Impl {
     BoxPrograms box_programs;
     BoxEdges box_edges;
     AxisCross axis_cross;
-    PictureRenderer picture;
     VertexArray no_vertices = make_vertex_array();
     Buffer frame = make_dynamic_buffer(sizeof(FrameUniforms));
     FewOutlines few;
     UnitSpace space;
     MeshLayer mesh;
-    BoxLayer nodes;
-    BoxLayer references;
-    std::vector<uint32_t> split_prims;  ///< of each box of `references`
+    /// What belongs to one structure.
+    struct Set {
+        BoxLayer nodes;
+        BoxLayer references;
+        std::vector<uint32_t> split_prims;  ///< of each box of `references`
+        PictureRenderer picture;
+    };
+    std::array<Set, 2> sets;
 
-    void draw_background(const DrawList& list);
-    void draw_mesh(const DrawList& list, const Vec3& up);
-    void draw_boxes(const DrawList& list);
+    void draw_background(const DrawList& list, const Set& set);
+    void draw_mesh(const DrawList& list, const Vec3& up, size_t set);
+    void draw_boxes(const DrawList& list, const Set& set);
     void draw_over_all(const DrawList& list);
     void draw_few(const Box& box, std::span<const OutlineSegment> outline, const Vec3& color);
     template <class Draw>
@@ -86,11 +91,23 @@ SceneRenderer::~SceneRenderer() = default;
 void SceneRenderer::set_mesh(const Mesh& mesh) {
     impl_->space = UnitSpace::of(mesh.bounds());
     impl_->mesh.upload(mesh, impl_->space);
-    impl_->nodes.clear();
-    impl_->references.clear();
+    for (Impl::Set& set : impl_->sets) {
+        set.nodes.clear();
+        set.references.clear();
+        set.split_prims.clear();
+    }
 }
 
-void SceneRenderer::set_boxes(const LevelTable& levels, const BoxValues& values) {
+void SceneRenderer::clear(size_t set) {
+    Impl::Set& of = impl_->sets[set];
+    of.nodes.clear();
+    of.references.clear();
+    of.split_prims.clear();
+    of.picture.clear();
+    impl_->mesh.clear_marks(set);
+}
+
+void SceneRenderer::set_boxes(const LevelTable& levels, const BoxValues& values, size_t set) {
     const auto fill = [&](uint32_t first, std::span<BoxInstance> boxes) {
         parallel_for(boxes.size(), 4096, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) {
@@ -102,35 +119,37 @@ void SceneRenderer::set_boxes(const LevelTable& levels, const BoxValues& values)
             }
         });
     };
-    impl_->nodes.upload(static_cast<uint32_t>(levels.order.size()), fill, outlines_of(levels, impl_->space));
+    impl_->sets[set].nodes.upload(static_cast<uint32_t>(levels.order.size()), fill,
+                                  outlines_of(levels, impl_->space));
 }
 
-void SceneRenderer::set_box_marks(const LevelTable& levels, std::span<const uint32_t> marks) {
+void SceneRenderer::set_box_marks(const LevelTable& levels, std::span<const uint32_t> marks, size_t set) {
     std::vector<uint32_t> in_order;
     if (!marks.empty()) {
         in_order.reserve(levels.order.size());
         for (const uint32_t node : levels.order) in_order.push_back(marks[node]);
     }
-    impl_->nodes.set_marks(in_order);
+    impl_->sets[set].nodes.set_marks(in_order);
 }
 
-void SceneRenderer::set_triangle_marks(std::span<const uint8_t> marks) {
-    impl_->mesh.upload_marks(marks);
+void SceneRenderer::set_triangle_marks(std::span<const uint8_t> marks, size_t set) {
+    impl_->mesh.upload_marks(marks, set);
     std::vector<uint32_t> box_marks;
-    for (const uint32_t prim : impl_->split_prims)
+    for (const uint32_t prim : impl_->sets[set].split_prims)
         box_marks.push_back((marks[prim] & TriangleMark::kHidden) != 0 ? BoxMark::kHidden : 0u);
-    impl_->references.set_marks(box_marks);
+    impl_->sets[set].references.set_marks(box_marks);
 }
 
-void SceneRenderer::set_references(std::span<const PrimRef> refs, size_t triangle_count) {
+void SceneRenderer::set_references(std::span<const PrimRef> refs, size_t triangle_count, size_t set) {
     const std::vector<uint8_t> flags = split_flags(refs, triangle_count);
-    impl_->mesh.upload_marks(flags);
+    impl_->mesh.upload_marks(flags, set);
     std::vector<uint32_t> split_refs;
-    impl_->split_prims.clear();
+    std::vector<uint32_t>& split_prims = impl_->sets[set].split_prims;
+    split_prims.clear();
     for (size_t i = 0; i < refs.size(); ++i) {
         if (flags[refs[i].prim] == 0) continue;
         split_refs.push_back(static_cast<uint32_t>(i));
-        impl_->split_prims.push_back(refs[i].prim);
+        split_prims.push_back(refs[i].prim);
     }
     const auto fill = [&](uint32_t first, std::span<BoxInstance> boxes) {
         for (size_t i = 0; i < boxes.size(); ++i) {
@@ -140,46 +159,49 @@ void SceneRenderer::set_references(std::span<const PrimRef> refs, size_t triangl
                         .word = ref.prim};
         }
     };
-    impl_->references.upload(static_cast<uint32_t>(split_refs.size()), fill);
+    impl_->sets[set].references.upload(static_cast<uint32_t>(split_refs.size()), fill);
 }
 
-void SceneRenderer::set_picture(const Image& image, uint64_t version) { impl_->picture.set(image, version); }
-void SceneRenderer::clear_picture() { impl_->picture.clear(); }
+void SceneRenderer::set_picture(const Image& image, uint64_t version, size_t set) {
+    impl_->sets[set].picture.set(image, version);
+}
+void SceneRenderer::clear_picture(size_t set) { impl_->sets[set].picture.clear(); }
 
 void SceneRenderer::draw(const DrawList& list, const Camera& camera, RenderTarget& target,
-                         const PixelRect& rect) {
-    if (rect.width <= 0 || rect.height <= 0) return;
+                         const PixelRect& rect, const PixelRect& part, size_t set) {
+    if (rect.width <= 0 || rect.height <= 0 || part.width <= 0 || part.height <= 0) return;
+    Impl::Set& of = impl_->sets[set];
     const CameraFrame view = camera_frame(camera, static_cast<double>(rect.width) / rect.height);
     const FrameUniforms uniforms = frame_uniforms(view, impl_->space, rect.width, rect.height);
     glNamedBufferSubData(impl_->frame.name(), 0, sizeof(uniforms), &uniforms);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, impl_->frame.name());
 
-    impl_->nodes.choose(impl_->box_programs, list.boxes.value_or(BoxSelection{}), list.box_budget);
-    const uint32_t reference_count = list.reference_boxes ? impl_->references.box_count() : 0;
-    impl_->references.choose(impl_->box_programs, {.end = reference_count, .count = reference_count},
-                             list.box_budget);
+    of.nodes.choose(impl_->box_programs, list.boxes.value_or(BoxSelection{}), list.box_budget);
+    const uint32_t reference_count = list.reference_boxes ? of.references.box_count() : 0;
+    of.references.choose(impl_->box_programs, {.end = reference_count, .count = reference_count},
+                         list.box_budget);
 
-    target.bind_samples(rect);
+    target.bind_samples(rect, part);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_SCISSOR_TEST);
     glDisable(GL_CULL_FACE);
     glClearDepth(0.0);
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);
-    impl_->draw_background(list);
+    impl_->draw_background(list, of);
     glEnable(GL_DEPTH_TEST);
-    impl_->draw_mesh(list, glm::length(camera.up) > 0.0f ? glm::normalize(camera.up) : Vec3(view.up));
-    impl_->draw_boxes(list);
+    impl_->draw_mesh(list, glm::length(camera.up) > 0.0f ? glm::normalize(camera.up) : Vec3(view.up), set);
+    impl_->draw_boxes(list, of);
     impl_->draw_over_all(list);
     glDisable(GL_DEPTH_TEST);
     if (list.axis_cross) impl_->axis_cross.draw(view, rect.width, rect.height, list.interface_scale);
-    target.resolve(rect);
+    target.resolve(part);
 }
 
-void SceneRenderer::Impl::draw_background(const DrawList& list) {
+void SceneRenderer::Impl::draw_background(const DrawList& list, const Set& set) {
     glDisable(GL_DEPTH_TEST);
-    if (picture.is_set()) {
-        picture.fill(1.0f);
+    if (set.picture.is_set()) {
+        set.picture.fill(1.0f);
         return;
     }
     glDisable(GL_BLEND);
@@ -190,7 +212,7 @@ void SceneRenderer::Impl::draw_background(const DrawList& list) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void SceneRenderer::Impl::draw_mesh(const DrawList& list, const Vec3& up) {
+void SceneRenderer::Impl::draw_mesh(const DrawList& list, const Vec3& up, size_t set) {
     const bool only_edges = list.mesh == MeshLook::Hidden;
     if (only_edges && !list.wire) return;
     mesh_program.set("show_red", list.red ? 1 : 0);
@@ -213,7 +235,7 @@ void SceneRenderer::Impl::draw_mesh(const DrawList& list, const Vec3& up) {
     } else {
         glDisable(GL_BLEND);
     }
-    mesh.draw(mesh_program, list.selected_prim);
+    mesh.draw(mesh_program, list.selected_prim, set);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);
 }
@@ -234,7 +256,7 @@ void SceneRenderer::Impl::draw_in_passes(bool see_through, float hidden_opacity,
     draw();
 }
 
-void SceneRenderer::Impl::draw_boxes(const DrawList& list) {
+void SceneRenderer::Impl::draw_boxes(const DrawList& list, const Set& set) {
     box_program.set("line_width", list.line_width);
     box_program.set("casing", list.line_casing);
     box_program.set("casing_color", srgb_from_linear(list.casing_color));
@@ -249,9 +271,9 @@ void SceneRenderer::Impl::draw_boxes(const DrawList& list) {
     box_program.use();
     box_edges.bind();
     box_program.set("coloring", static_cast<int>(Coloring::Primitive));
-    draw_in_passes(list.see_through, kHiddenOpacity, [&] { references.draw(box_program); });
+    draw_in_passes(list.see_through, kHiddenOpacity, [&] { set.references.draw(box_program); });
     box_program.set("coloring", coloring_of(list.colors.meaning));
-    draw_in_passes(list.see_through, kHiddenOpacity, [&] { nodes.draw(box_program); });
+    draw_in_passes(list.see_through, kHiddenOpacity, [&] { set.nodes.draw(box_program); });
 }
 
 void SceneRenderer::Impl::draw_few(const Box& box, std::span<const OutlineSegment> outline,
@@ -282,15 +304,22 @@ void SceneRenderer::Impl::draw_over_all(const DrawList& list) {
     draw_few(box, list.ray, list.ray_color);
 }
 
-BoxCounts SceneRenderer::box_counts() const { return impl_->nodes.counts(); }
-BoxCounts SceneRenderer::reference_box_counts() const { return impl_->references.counts(); }
+BoxCounts SceneRenderer::box_counts(size_t set) const { return impl_->sets[set].nodes.counts(); }
+BoxCounts SceneRenderer::reference_box_counts(size_t set) const {
+    return impl_->sets[set].references.counts();
+}
 
 uint64_t SceneRenderer::upload_count() const {
-    return impl_->mesh.upload_count() + impl_->nodes.upload_count() + impl_->references.upload_count();
+    uint64_t count = impl_->mesh.upload_count();
+    for (const Impl::Set& set : impl_->sets)
+        count += set.nodes.upload_count() + set.references.upload_count();
+    return count;
 }
 
 size_t SceneRenderer::byte_count() const {
-    return impl_->mesh.byte_count() + impl_->nodes.byte_count() + impl_->references.byte_count();
+    size_t bytes = impl_->mesh.byte_count();
+    for (const Impl::Set& set : impl_->sets) bytes += set.nodes.byte_count() + set.references.byte_count();
+    return bytes;
 }
 
 }  // namespace boxwood

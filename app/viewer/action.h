@@ -34,6 +34,7 @@ struct PickNode {
 struct PickRay {
     Vec2 pointer;
 };
+struct SwapSides {};  ///< A becomes B with all that was found out for it
 struct CancelCheck {};
 struct StoreView {
     int slot;  ///< 0 to 8
@@ -41,6 +42,6 @@ struct StoreView {
 
 using Action = std::variant<OpenPath, SaveSession, CopySession, PasteSession, CopyText, UndoStep, RedoStep,
                             CancelWork, BuildAgain, DismissMessage, FocusPoint, FocusSelection, PickNode,
-                            PickRay, CancelCheck, StoreView>;
+                            PickRay, SwapSides, CancelCheck, StoreView>;
 
 }  // namespace boxwood

@@ -1,5 +1,6 @@
 #include "app/viewer/build_job.h"
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -94,20 +95,53 @@ void BuildJob::work(const std::stop_token& quit) {
     }
 }
 
+void BuildJob::open(const BuildRequest& request, Task& task) {
+    if (scene_ && scene_spec_ == request.scene && !request.reload) return;
+    say("opening " + request.scene);
+    std::shared_ptr<const Scene> scene = open_scene(request.scene, task);
+    if (task.stopped()) return;
+    scene_ = std::move(scene);
+    scene_spec_ = request.scene;
+    kept_.clear();
+}
+
 BuildResult BuildJob::run(const BuildRequest& request, Task& task) {
     BuildResult result;
     result.request = request;
     try {
-        if (!scene_ || scene_spec_ != request.scene || request.reload) {
-            say("opening " + request.scene);
-            std::shared_ptr<const Scene> scene = open_scene(request.scene, task);
-            if (task.stopped()) return result;
-            scene_ = std::move(scene);
-            scene_spec_ = request.scene;
-        }
-        result.scene = scene_;
-        if (!request.structure || task.stopped()) return result;
-        const Recipe recipe = parse_recipe(request.recipe);
+        open(request, task);
+    } catch (const Error& error) {
+        result.error = error.what();
+        result.exit_code = error.exit_code();
+        return result;
+    } catch (const std::bad_alloc&) {
+        result.error = "not enough memory for " + request.scene;
+        result.exit_code = ExitCode::BadInput;
+        return result;
+    }
+    result.scene = scene_;
+    if (!request.structure) return result;
+    std::erase_if(kept_, [&](const auto& entry) {
+        return std::ranges::find(request.recipes, entry.first) == request.recipes.end();
+    });
+    for (size_t side = 0; side < result.sides.size() && !task.stopped(); ++side) {
+        if (side == 0 || !request.recipes[side].empty())
+            result.sides[side] = build(request.recipes[side], task);
+    }
+    return result;
+}
+
+SideResult BuildJob::build(const std::string& recipe, Task& task) {
+    if (const auto found = kept_.find(recipe); found != kept_.end()) return found->second;
+    SideResult result = make(recipe, task);
+    if (result.built) kept_[recipe] = result;
+    return result;
+}
+
+SideResult BuildJob::make(const std::string& text, Task& task) {
+    SideResult result;
+    try {
+        const Recipe recipe = parse_recipe(text);
         const std::string warning = long_build_warning(recipe, scene_->mesh.triangle_count());
         say("building " + print(recipe) + (warning.empty() ? "" : ", which " + warning));
         std::optional<Built> built = run_recipe(recipe, scene_, *cache_, task, /*with_levels=*/true);
@@ -120,7 +154,7 @@ BuildResult BuildJob::run(const BuildRequest& request, Task& task) {
         result.error = error.what();
         result.exit_code = error.exit_code();
     } catch (const std::bad_alloc&) {
-        result.error = "not enough memory for " + request.recipe + " on " + request.scene;
+        result.error = "not enough memory for " + text + " on " + scene_spec_;
         result.exit_code = ExitCode::BadInput;
     }
     return result;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <condition_variable>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,24 +20,31 @@ namespace boxwood {
 /// What the window wants to show.
 struct BuildRequest {
     std::string scene;
-    std::string recipe;
+    std::array<std::string, 2> recipes{};  ///< by Side; B's empty: there is none
     bool structure = true;  ///< false: nothing shows references or structure, so only the scene is opened
     bool reload = false;    ///< open the scene again even if it is the one that is open
 
     bool operator==(const BuildRequest&) const = default;
 };
 
-/// A whole answer, or why there is none.
-struct BuildResult {
-    BuildRequest request;
-    std::shared_ptr<const Scene> scene;       ///< null: it could not be opened, see error
+/// What a recipe made.
+struct SideResult {
     std::shared_ptr<const Built> built;       ///< with levels; null: not asked for, or see error
     std::shared_ptr<const BoxValues> values;  ///< of built->levels
     std::shared_ptr<const TreeStats> tree;    ///< of built->levels
     uint64_t shared_count = 0;  ///< triangles in several leaves though the references stage made one
     std::string error;          ///< a sentence; empty: all is well
     ExitCode exit_code = ExitCode::Done;  ///< of the error
-    double ms = 0.0;                      ///< from the request to here
+};
+
+/// A whole answer, or why there is none.
+struct BuildResult {
+    BuildRequest request;
+    std::shared_ptr<const Scene> scene;  ///< null: it could not be opened, see error
+    std::array<SideResult, 2> sides;     ///< by Side; the same recipe twice: the same structure
+    std::string error;                   ///< of the scene
+    ExitCode exit_code = ExitCode::Done;
+    double ms = 0.0;  ///< from the request to here
 };
 
 /// What the job does now.
@@ -46,8 +55,8 @@ struct BuildProgress {
     double ms = 0.0;       ///< since the request
 };
 
-/// Opens scenes and runs recipes in a thread of its own. Of several requests only the newest is answered: one
-/// that runs is stopped, one that waits is dropped. Called from one thread.
+/// Opens scenes and runs recipes, A's before B's, in a thread of its own. Of several requests only the newest
+/// is answered: one that runs is stopped, one that waits is dropped. Called from one thread.
 class BuildJob {
 public:
     explicit BuildJob(std::shared_ptr<StageCache> cache);
@@ -69,11 +78,15 @@ public:
 private:
     void work(const std::stop_token& quit);
     BuildResult run(const BuildRequest& request, Task& task);
+    void open(const BuildRequest& request, Task& task);
+    SideResult build(const std::string& recipe, Task& task);
+    SideResult make(const std::string& text, Task& task);
     void say(const std::string& sentence);
 
     std::shared_ptr<StageCache> cache_;
-    std::shared_ptr<const Scene> scene_;  ///< the last one that was opened; only the thread touches it
-    std::string scene_spec_;              ///< as it was asked for
+    std::shared_ptr<const Scene> scene_;      ///< the last one that was opened; only the thread touches it
+    std::string scene_spec_;                  ///< as it was asked for
+    std::map<std::string, SideResult> kept_;  ///< of the last answers over that scene, by recipe as asked for
 
     mutable std::mutex mutex_;
     std::condition_variable_any wake_;

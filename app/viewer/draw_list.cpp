@@ -36,8 +36,7 @@ void set_theme(DrawList& list, Theme theme) {
     list.selection_color = linear_from_srgb(is_dark ? Vec3(1.0f, 0.55f, 0.95f) : Vec3(0.80f, 0.0f, 0.70f));
 }
 
-ColorScale make_colors(const ViewerState& state, int last_level, const BoxValues& values,
-                       const Visits* visits) {
+ColorScale make_colors(const ViewerState& state, const BoxRanges& ranges) {
     ColorScale colors;
     colors.meaning = state.box_color;
     const MapPart part = state.theme == Theme::Dark ? kDarkPart : kLightPart;
@@ -45,23 +44,23 @@ ColorScale make_colors(const ViewerState& state, int last_level, const BoxValues
         const float x = static_cast<float>(i) / static_cast<float>(kPaletteSize - 1);
         colors.palette[i] = map_linear(ColorMap::Viridis, part.from + x * (part.to - part.from));
     }
-    const auto share_most = static_cast<double>(values.sah_share_range.upper);
-    const auto share_least =
-        std::max(static_cast<double>(values.sah_share_range.lower), kShareSpan * share_most);
+    const auto share_most = static_cast<double>(ranges.sah_share.upper);
+    const auto share_least = std::max(static_cast<double>(ranges.sah_share.lower), kShareSpan * share_most);
     switch (state.box_color) {
         case BoxColor::Level:
-            colors.scale = {0.0, std::max(1.0, static_cast<double>(last_level)), false};
+            colors.scale = {0.0, std::max(1.0, double(std::clamp(state.levels.last, 0, ranges.deepest))),
+                            false};
             break;
         case BoxColor::Primitives:
-            colors.scale = {static_cast<double>(values.references_range.lower),
-                            static_cast<double>(values.references_range.upper), true};
+            colors.scale = {static_cast<double>(ranges.references.lower),
+                            static_cast<double>(ranges.references.upper), true};
             break;
         case BoxColor::SahShare:
             colors.scale = {share_least, share_most, true};
             break;
         case BoxColor::Visits: {
             // One visit alone has the last colour, which stands out most.
-            const double most = visits != nullptr ? static_cast<double>(visits->most) : 1.0;
+            const double most = ranges.most_visits > 0 ? double(ranges.most_visits) : 1.0;
             colors.scale = {most > 1.0 ? 1.0 : 0.5, std::max(most, 1.0), true};
             break;
         }
@@ -129,8 +128,32 @@ BoxSelection select_boxes(const LevelTable& levels, const LevelRange& range, boo
     return selection;
 }
 
+void BoxRanges::extend(const LevelTable& levels, const BoxValues& values, const Visits* visits) {
+    const auto join = [](ValueRange& range, const ValueRange& other) {
+        if (!(other.upper > 0.0f)) return;
+        range.lower = range.upper > 0.0f ? std::min(range.lower, other.lower) : other.lower;
+        range.upper = std::max(range.upper, other.upper);
+    };
+    deepest = std::max(deepest, static_cast<int>(levels.level_count()) - 1);
+    join(references, values.references_range);
+    join(sah_share, values.sah_share_range);
+    if (visits != nullptr) most_visits = std::max(most_visits, visits->most);
+}
+
+BoxRanges BoxRanges::of(const LevelTable& levels, const BoxValues& values, const Visits* visits) {
+    BoxRanges ranges;
+    ranges.extend(levels, values, visits);
+    return ranges;
+}
+
 DrawList make_draw_list(const ViewerState& state, const LevelTable& levels, const BoxValues& values,
                         const CastResults& cast) {
+    return make_draw_list(state, state.active_side(), levels, cast,
+                          BoxRanges::of(levels, values, cast.visits.get()));
+}
+
+DrawList make_draw_list(const ViewerState& state, Side side, const LevelTable& levels,
+                        const CastResults& cast, const BoxRanges& ranges) {
     DrawList list;
     const bool is_traced = state.traced == TracedView::Over;
     list.mesh = !state.show_mesh ? MeshLook::Hidden : is_traced ? MeshLook::Depth : MeshLook::Shaded;
@@ -146,16 +169,16 @@ DrawList make_draw_list(const ViewerState& state, const LevelTable& levels, cons
     list.depth_fade = kDepthFade;
     list.size_fade = kSizeFade;
     set_theme(list, state.theme);
-    const int deepest = std::max(static_cast<int>(levels.level_count()) - 1, 0);
-    list.colors = make_colors(state, std::clamp(state.levels.last, 0, deepest), values, cast.visits.get());
+    list.colors = make_colors(state, ranges);
     if (state.show_boxes && levels.level_count() > 0) {
         list.boxes = select_boxes(levels, state.levels, state.leaves_above);
         list.boxes->empty_cells = state.show_empty;
         list.boxes->only_visited = state.box_color == BoxColor::Visits && !state.show_unvisited;
     }
-    if (state.node < levels.list.nodes.size()) {
-        list.selected = levels.list.nodes[state.node].bounds;
-        const std::span<const OutlineSegment> outline = levels.outline(state.node);
+    const uint32_t node = state.side(side).node;
+    if (node < levels.list.nodes.size()) {
+        list.selected = levels.list.nodes[node].bounds;
+        const std::span<const OutlineSegment> outline = levels.outline(node);
         list.selected_outline.assign(outline.begin(), outline.end());
     }
     list.selected_prim = state.prim;

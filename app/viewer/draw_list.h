@@ -109,8 +109,20 @@ struct BoxCounts {
 /// The boxes of a range of levels, with the leaves above it if asked for.
 BoxSelection select_boxes(const LevelTable& levels, const LevelRange& range, bool leaves_above);
 
-/// The frame's 3D view of a state. `levels`, `values` and `cast` belong together; without levels no box is
-/// drawn.
+/// What the colours of boxes span; of two sides what both span, so that a colour means the same in both.
+struct BoxRanges {
+    int deepest = 0;  ///< level
+    ValueRange references, sah_share;
+    uint32_t most_visits = 0;  ///< 0: none are known
+
+    void extend(const LevelTable& levels, const BoxValues& values, const Visits* visits);
+    static BoxRanges of(const LevelTable& levels, const BoxValues& values, const Visits* visits);
+};
+
+/// A side's 3D view. `levels` and `cast` are the side's; without levels no box is drawn.
+DrawList make_draw_list(const ViewerState& state, Side side, const LevelTable& levels,
+                        const CastResults& cast, const BoxRanges& ranges);
+/// Of the active side, with colours of its own range.
 DrawList make_draw_list(const ViewerState& state, const LevelTable& levels, const BoxValues& values,
                         const CastResults& cast = {});
 

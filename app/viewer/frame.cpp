@@ -16,6 +16,13 @@ PixelRect pixel_rect(const ViewRect& rect) {
             static_cast<int>(rect.height)};
 }
 
+DrawList draw_list(const Viewer& viewer, Side side) {
+    static const LevelTable kNoLevels{};
+    const SideWork& work = viewer.work(side);
+    return make_draw_list(viewer.state, side, work.built() ? *work.built()->levels : kNoLevels,
+                          work.rays.cast(), viewer.box_ranges());
+}
+
 }  // namespace
 
 Frame::Frame() = default;
@@ -23,41 +30,43 @@ Frame::Frame() = default;
 void Frame::upload(const Viewer& viewer) {
     if (uploaded_scene_ != viewer.scene()) {
         uploaded_scene_ = viewer.scene();
-        uploaded_built_.reset();
+        uploaded_ = {};
         scene_renderer_.set_mesh(uploaded_scene_->mesh);
     }
-    if (uploaded_built_ != viewer.built()) {
-        uploaded_built_ = viewer.built();
-        scene_renderer_.set_boxes(*uploaded_built_->levels, *viewer.values());
-        scene_renderer_.set_references(uploaded_built_->references->refs,
-                                       uploaded_scene_->mesh.triangle_count());
-        uploaded_visibility_.reset();
-    }
-    upload_marks(viewer);
+    if (!uploaded_scene_) return;
+    for (const Side side : kSides) upload_side(viewer.work(side), index_of(side));
 }
 
-void Frame::upload_marks(const Viewer& viewer) {
-    if (!uploaded_built_ || !viewer.visibility()) return;
-    const bool is_other = uploaded_visibility_ != viewer.visibility();
-    const std::shared_ptr<const Visits>& visits = viewer.cast().visits;
+void Frame::upload_side(const SideWork& work, size_t set) {
+    Uploaded& there = uploaded_[set];
+    if (there.built != work.built()) {
+        there = Uploaded{.built = work.built()};
+        if (there.built) {
+            scene_renderer_.set_boxes(*there.built->levels, *work.values(), set);
+            scene_renderer_.set_references(there.built->references->refs,
+                                           uploaded_scene_->mesh.triangle_count(), set);
+        } else {
+            scene_renderer_.clear(set);
+        }
+    }
+    if (there.built && work.visibility()) upload_marks(work, set);
+}
+
+void Frame::upload_marks(const SideWork& work, size_t set) {
+    Uploaded& there = uploaded_[set];
+    const bool is_other = there.visibility != work.visibility();
+    const std::shared_ptr<const Visits>& visits = work.rays.cast().visits;
     if (is_other) {
-        scene_renderer_.set_triangle_marks(triangle_marks(uploaded_built_->references->refs, *viewer.values(),
-                                                          *viewer.visibility(),
-                                                          uploaded_scene_->mesh.triangle_count()));
+        scene_renderer_.set_triangle_marks(
+            triangle_marks(there.built->references->refs, *work.values(), *work.visibility(),
+                           uploaded_scene_->mesh.triangle_count()),
+            set);
     }
-    if (is_other || uploaded_visits_ != visits)
-        scene_renderer_.set_box_marks(*uploaded_built_->levels,
-                                      box_marks(*viewer.visibility(), visits.get()));
-    uploaded_visibility_ = viewer.visibility();
-    uploaded_visits_ = visits;
-}
-
-DrawList Frame::draw_list(const Viewer& viewer) const {
-    static const LevelTable kNoLevels{};
-    static const BoxValues kNoValues{};
-    const bool has_boxes = viewer.built() != nullptr;
-    return make_draw_list(viewer.state, has_boxes ? *viewer.built()->levels : kNoLevels,
-                          has_boxes ? *viewer.values() : kNoValues, viewer.cast());
+    if (is_other || there.visits != visits) {
+        scene_renderer_.set_box_marks(*there.built->levels, box_marks(*work.visibility(), visits.get()), set);
+    }
+    there.visibility = work.visibility();
+    there.visits = visits;
 }
 
 void Frame::run_interface(Viewer& viewer, const FrameLayout& layout) {
@@ -65,13 +74,15 @@ void Frame::run_interface(Viewer& viewer, const FrameLayout& layout) {
     ImGui::NewFrame();
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     PanelInput input = viewer.panel_input(Vec2(mouse.x, mouse.y));
-    const DrawList shown = draw_list(viewer);
+    const DrawList shown = draw_list(viewer, viewer.state.active_side());
     input.scale = shown.colors;
     input.empty_color = srgb_from_linear(shown.empty_color);
     input.unvisited_color = srgb_from_linear(shown.unvisited_color);
     input.shared_color = srgb_from_linear(shown.shared_color);
-    input.boxes = boxes_;
-    input.reference_boxes = reference_boxes_;
+    for (size_t set = 0; set < uploaded_.size(); ++set) {
+        input.sides[set].boxes = uploaded_[set].boxes;
+        input.sides[set].reference_boxes = uploaded_[set].reference_boxes;
+    }
     input.gpu_bytes = scene_renderer_.byte_count();
 
     std::vector<Action> actions = edit(viewer.state, input, layout, viewer.panel_memory);
@@ -85,19 +96,29 @@ void Frame::run_interface(Viewer& viewer, const FrameLayout& layout) {
 }
 
 void Frame::draw_pictures(const Viewer& viewer, const FrameLayout& layout) {
-    const ViewerState& state = viewer.state;
-    const bool traced = state.traced != TracedView::Off && viewer.traced_version() > 0;
-    if (traced && state.traced == TracedView::Over) {
-        scene_renderer_.set_picture(viewer.traced_image(), viewer.traced_version());
-    } else {
-        scene_renderer_.clear_picture();
+    for (const Side side : kSides) {
+        if (viewer.state.has(side)) draw_side(viewer, side, layout.side(side));
     }
-    scene_renderer_.draw(draw_list(viewer), viewer.camera(), target_, pixel_rect(layout.scene));
-    boxes_ = scene_renderer_.box_counts();
-    reference_boxes_ = scene_renderer_.reference_box_counts();
-    if (traced && state.traced == TracedView::Beside) {
-        picture_renderer_.draw(viewer.traced_image(), viewer.traced_version(), 1.0f, target_,
-                               pixel_rect(layout.traced));
+}
+
+void Frame::draw_side(const Viewer& viewer, Side side, const SideLayout& places) {
+    const ViewerState& state = viewer.state;
+    const size_t set = index_of(side);
+    const Viewer::TracedPicture traced =
+        state.traced != TracedView::Off ? viewer.traced_picture(side) : Viewer::TracedPicture{};
+    if (traced.image != nullptr && state.traced == TracedView::Over) {
+        scene_renderer_.set_picture(*traced.image, traced.version, set);
+    } else {
+        scene_renderer_.clear_picture(set);
+    }
+    scene_renderer_.draw(draw_list(viewer, side), viewer.camera(), target_, pixel_rect(places.scene.rect),
+                         pixel_rect(places.scene.part), set);
+    uploaded_[set].boxes = scene_renderer_.box_counts(set);
+    uploaded_[set].reference_boxes = scene_renderer_.reference_box_counts(set);
+    const bool is_drawn = side == Side::B && state.shows_difference();  // one picture for both
+    if (traced.image != nullptr && state.traced == TracedView::Beside && !is_drawn) {
+        picture_renderers_[set].draw(*traced.image, traced.version, 1.0f, target_,
+                                     pixel_rect(places.traced.rect), pixel_rect(places.traced.part));
     }
 }
 

@@ -30,24 +30,29 @@ public:
     bool editing() const { return editing_; }
 
 private:
+    /// What the GPU holds of a side.
+    struct Uploaded {
+        std::shared_ptr<const Built> built{};
+        std::shared_ptr<const Visibility> visibility{};
+        std::shared_ptr<const Visits> visits{};
+        BoxCounts boxes{}, reference_boxes{};
+    };
     void upload(const Viewer& viewer);
-    void upload_marks(const Viewer& viewer);
+    void upload_side(const SideWork& work, size_t set);
+    void upload_marks(const SideWork& work, size_t set);
     void run_interface(Viewer& viewer, const FrameLayout& layout);
     void draw_pictures(const Viewer& viewer, const FrameLayout& layout);
-    DrawList draw_list(const Viewer& viewer) const;
+    void draw_side(const Viewer& viewer, Side side, const SideLayout& places);
 
     UiContext ui_;
     RenderTarget target_{16, 16};
     SceneRenderer scene_renderer_;
-    PictureRenderer picture_renderer_;
+    std::array<PictureRenderer, 2> picture_renderers_;
     UiRenderer ui_renderer_;
     ViewInput view_input_;
     bool editing_ = false;
     std::shared_ptr<const Scene> uploaded_scene_;
-    std::shared_ptr<const Built> uploaded_built_;
-    std::shared_ptr<const Visibility> uploaded_visibility_;
-    std::shared_ptr<const Visits> uploaded_visits_;
-    BoxCounts boxes_, reference_boxes_;
+    std::array<Uploaded, 2> uploaded_;
 };
 
 }  // namespace boxwood

@@ -45,6 +45,12 @@ constexpr auto kHelp = std::to_array<KeyHelp>({
     {"Nodes", "Delete", "hide it; Shift: put all back"},
     {"Nodes", "Esc", "select nothing; forget the ray"},
     {"Nodes", "N", "levels, node, verify in the right panel"},
+    {"Compare", "C", "two recipes, A and B; again: one"},
+    {"Compare", "A", "edit the other of both"},
+    {"Compare", "S", "swap A and B"},
+    {"Compare", "G", "wipe, or side by side"},
+    {"Compare", "drag the bar", "wipe; keys , and .; double click: middle"},
+    {"Compare", "J", "heat map of the difference A \u2212 B"},
     {"Levels", "[  ]", "level range up, down the tree"},
     {"Levels", "Shift + [  ]", "its last level alone"},
     {"Levels", "L", "leaves above the range"},
@@ -101,7 +107,7 @@ void handle_toggles(ViewerState& state) {
     toggle(state.show_empty, 'E');
     toggle(state.show_shared, 'D');
     toggle(state.show_panels, key::kTab);
-    if (pressed('N')) state.side = static_cast<SidePanel>((static_cast<int>(state.side) + 1) % 3);
+    if (pressed('N')) state.side_panel = static_cast<SidePanel>((static_cast<int>(state.side_panel) + 1) % 3);
     if (pressed('V')) next_visits(state);
     if (pressed('T')) {
         state.traced = state.traced == TracedView::Off      ? TracedView::Beside
@@ -124,7 +130,7 @@ void handle_views(ViewerState& state, const PanelInput& input, const Camera& cam
         }
     }
     if (pressed(key::kHome)) state.camera.reset();
-    const bool is_selected = state.node != kNoIndex || state.prim != kNoIndex;
+    const bool is_selected = state.side().node != kNoIndex || state.prim != kNoIndex;
     if (pressed('F'))
         actions.push_back(is_selected ? Action(FocusSelection{})
                                       : Action(FocusPoint{Vec2(io.MousePos.x, io.MousePos.y)}));
@@ -141,6 +147,18 @@ void handle_views(ViewerState& state, const PanelInput& input, const Camera& cam
     }
 }
 
+/// What two recipes are compared by.
+void handle_compare(ViewerState& state, PanelMemory& memory, std::vector<Action>& actions) {
+    if (pressed('C')) panel::toggle_compare(state, memory);
+    if (!state.compares()) return;
+    if (pressed('A')) state.active = other_side(state.active);
+    if (pressed('S')) actions.push_back(SwapSides{});
+    if (pressed('G'))
+        state.compare_view =
+            state.compare_view == CompareView::Wipe ? CompareView::Beside : CompareView::Wipe;
+    if (pressed('J')) panel::toggle_difference(state);
+}
+
 /// Selects a neighbour of the selected node, hides or isolates it.
 void handle_nodes(ViewerState& state, const PanelInput& input) {
     if (pressed('I')) panel::isolate_selected(state);
@@ -151,10 +169,11 @@ void handle_nodes(ViewerState& state, const PanelInput& input) {
             panel::hide_selected(state);
         }
     }
-    if (input.facts == nullptr || input.facts->node != state.node) return;
-    const NodeFacts& facts = *input.facts;
+    const NodeFacts* found = input.side(state.active_side()).facts;
+    if (found == nullptr || found->node != state.side().node) return;
+    const NodeFacts& facts = *found;
     const auto go_to = [&](uint32_t node) {
-        state.node = node;
+        state.side().node = node;
         state.prim = kNoIndex;
     };
     const auto at = std::ranges::find(facts.siblings, facts.node);
@@ -167,11 +186,13 @@ void handle_nodes(ViewerState& state, const PanelInput& input) {
 
 /// Signs that stand on different keys of different keyboards come as characters.
 void handle_characters(ViewerState& state, const PanelInput& input) {
-    const int deepest =
-        input.built != nullptr ? std::max(static_cast<int>(input.built->levels->level_count()) - 1, 0) : 0;
+    const int deepest = panel::deepest_level(input);
+    constexpr float kWipeStep = 0.05f;
     for (const ImWchar c : ImGui::GetIO().InputQueueCharacters) {
         if (c == '?') state.show_keys = !state.show_keys;
         if (c == '[' || c == ']') state.levels = moved(state.levels, c == ']' ? 1 : -1, false, deepest);
+        if (c == ',' || c == '.')
+            state.wipe = std::clamp(state.wipe + (c == '.' ? kWipeStep : -kWipeStep), 0.0f, 1.0f);
         if (c == '{' || c == '}') state.levels = moved(state.levels, c == '}' ? 1 : -1, true, deepest);
     }
 }
@@ -198,8 +219,8 @@ void handle_keys(ViewerState& state, const PanelInput& input, PanelMemory& memor
             actions.push_back(CancelWork{});
         } else if (!input.message.empty()) {
             actions.push_back(DismissMessage{});
-        } else if (state.node != kNoIndex || state.prim != kNoIndex) {
-            state.node = state.prim = kNoIndex;
+        } else if (state.side().node != kNoIndex || state.prim != kNoIndex) {
+            state.side().node = state.prim = kNoIndex;
         } else {
             state.ray.reset();
         }
@@ -210,6 +231,7 @@ void handle_keys(ViewerState& state, const PanelInput& input, PanelMemory& memor
     }
     if (flying || io.KeyAlt) return;
     handle_toggles(state);
+    handle_compare(state, memory, actions);
     handle_views(state, input, camera, actions);
     handle_nodes(state, input);
     handle_characters(state, input);

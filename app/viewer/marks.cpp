@@ -6,7 +6,7 @@
 
 namespace boxwood {
 
-Visibility visible_parts(const ViewerState& state, const NodeList& list, size_t triangle_count) {
+Visibility visible_parts(const SideState& state, const NodeList& list, size_t triangle_count) {
     const size_t count = list.nodes.size();
     const auto exists = [&](uint32_t node) { return node < count; };
     Visibility visibility;

@@ -20,7 +20,7 @@ struct Visibility {
 };
 
 /// Of the state's hidden and isolated nodes; those that the list does not have are passed over.
-Visibility visible_parts(const ViewerState& state, const NodeList& list, size_t triangle_count);
+Visibility visible_parts(const SideState& state, const NodeList& list, size_t triangle_count);
 
 /// A BoxMark for each node; none where all are 0. `visits`: null, or of the same nodes.
 std::vector<uint32_t> box_marks(const Visibility& visibility, const Visits* visits);

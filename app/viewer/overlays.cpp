@@ -58,6 +58,15 @@ void path_dialog(const Context& context, const char* title, const char* button, 
     ImGui::EndPopup();
 }
 
+/// What became of a side's boxes; empty where none are to be drawn.
+std::string boxes_text(const ViewerState& state, const SideInput& side) {
+    std::string text;
+    if (state.show_boxes && side.built != nullptr) text = describe(side.boxes);
+    if (state.show_reference_boxes)
+        text += (text.empty() ? "pieces: " : "; pieces: ") + describe(side.reference_boxes);
+    return text;
+}
+
 }  // namespace
 
 void status_line(const Context& context) {
@@ -68,9 +77,14 @@ void status_line(const Context& context) {
     ImGui::Begin("status", nullptr, kBare);
     ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
     std::string text;
-    if (context.state.show_boxes && context.input.built != nullptr) text = describe(context.input.boxes);
-    if (context.state.show_reference_boxes) {
-        text += (text.empty() ? "pieces: " : "; pieces: ") + describe(context.input.reference_boxes);
+    for (const Side side : kSides) {
+        if (!context.state.has(side)) continue;
+        const std::string of = boxes_text(context.state, context.input.side(side));
+        if (!context.state.compares()) {
+            text = of;
+        } else if (!of.empty()) {
+            text += std::string(text.empty() ? "" : "   ") + side_name(side) + ": " + of;
+        }
     }
     if (text.empty()) text = "no boxes are drawn";
     colored(context.colors.dim, text);

@@ -17,7 +17,7 @@ std::string name_of(const NodeView& node, uint32_t number) {
 std::string share_text(double share) { return number_text(100.0 * share, 3) + " %"; }
 
 void select(const Context& context, uint32_t node) {
-    context.state.node = node;
+    context.state.side().node = node;
     context.state.prim = kNoIndex;
 }
 
@@ -31,7 +31,7 @@ void flow(const std::string& text, bool is_first) {
 
 /// Clickable numbers of nodes.
 void node_buttons(const Context& context, const char* id, std::span<const uint32_t> nodes, size_t most) {
-    const NodeList& list = context.input.built->levels->list;
+    const NodeList& list = context.side.built->levels->list;
     ImGui::PushID(id);
     ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
     for (size_t i = 0; i < std::min(nodes.size(), most); ++i) {
@@ -41,7 +41,7 @@ void node_buttons(const Context& context, const char* id, std::span<const uint32
         const NodeView& node = list.nodes[nodes[i]];
         tooltip(context, "Selects " + name_of(node, nodes[i]) + " at level " + std::to_string(node.level) +
                              ", " +
-                             grouped(static_cast<uint64_t>(context.input.values->references[nodes[i]])) +
+                             grouped(static_cast<uint64_t>(context.side.values->references[nodes[i]])) +
                              " references.");
     }
     ImGui::PopFont();
@@ -51,7 +51,7 @@ void node_buttons(const Context& context, const char* id, std::span<const uint32
 void number_rows(const Context& context, const NodeFacts& facts) {
     const NodeView& node = facts.view;
     const DVec3 size = node.bounds.extent();
-    const size_t deepest = context.input.built->levels->level_count() - 1;
+    const size_t deepest = context.side.built->levels->level_count() - 1;
     value_row(context, "level", std::to_string(node.level) + " of " + std::to_string(deepest),
               "Edges from the root to this node.");
     value_row(
@@ -68,7 +68,7 @@ void number_rows(const Context& context, const NodeFacts& facts) {
                   grouped(facts.references) + " references of " + grouped(facts.leaves_below) +
                   " leaves; nodes below: " + grouped(facts.nodes_below) + ".");
     const double cost = node.kind == NodeKind::Leaf ? leaf_cost(node.ref_count) : double(kTraversalCost);
-    const double sah_cost = context.input.tree->sah_cost;
+    const double sah_cost = context.side.tree->sah_cost;
     const double probability = cost > 0.0 ? facts.own_share * sah_cost / cost : 0.0;
     value_row(context, "own share of cost", share_text(facts.own_share),
               "(area / root area) \u00d7 " + number_text(cost) +
@@ -77,7 +77,7 @@ void number_rows(const Context& context, const NodeFacts& facts) {
                   number_text(cost) + " / " + number_text(sah_cost) + ".");
     value_row(context, "with all below", share_text(facts.share_below),
               "Share of the SAH cost that the node and all nodes below it have.");
-    if (const Visits* visits = context.input.visits; visits != nullptr) {
+    if (const Visits* visits = context.side.visits; visits != nullptr) {
         value_row(context, "visits", grouped(visits->by_node[facts.node]),
                   "Visits by " + grouped(visits->ray_count) + (visits->ray_count == 1 ? " ray." : " rays."));
     }
@@ -93,10 +93,10 @@ void buttons(const Context& context, uint32_t node) {
             "Delete: hides the node, all below it, and the triangles that are in no other visible leaf. The "
             "ray-traced view still shows all.");
     ImGui::SameLine();
-    if (ImGui::Button(s.isolated == node ? "Show all" : "Isolate")) isolate_selected(s);
+    if (ImGui::Button(s.side().isolated == node ? "Show all" : "Isolate")) isolate_selected(s);
     tooltip(context, "I: shows this node, what is below it and its triangles alone; again: all.");
     ImGui::SameLine();
-    const bool is_whole = s.hidden_nodes.empty() && s.isolated == kNoIndex;
+    const bool is_whole = s.side().hidden_nodes.empty() && s.side().isolated == kNoIndex;
     ImGui::BeginDisabled(is_whole);
     if (ImGui::Button("Put back")) put_nodes_back(s);
     ImGui::EndDisabled();
@@ -104,7 +104,7 @@ void buttons(const Context& context, uint32_t node) {
 }
 
 void triangle_list(const Context& context, const NodeFacts& facts) {
-    const Mesh& mesh = context.input.built->scene->mesh;
+    const Mesh& mesh = context.side.built->scene->mesh;
     std::string title = "triangles";
     if (facts.prim_count > facts.prims.size()) title += ", the first " + grouped(facts.prims.size());
     colored(context.colors.dim, title);
@@ -117,8 +117,8 @@ void triangle_list(const Context& context, const NodeFacts& facts) {
             if (ImGui::Selectable(text.c_str(), is_selected))
                 context.state.prim = is_selected ? kNoIndex : prim;
             tooltip(context, "Triangle " + std::to_string(mesh.source_prim[prim]) + " of the file, in " +
-                                 grouped(context.input.values->prim_leaves[prim]) +
-                                 (context.input.values->prim_leaves[prim] == 1 ? " leaf" : " leaves") +
+                                 grouped(context.side.values->prim_leaves[prim]) +
+                                 (context.side.values->prim_leaves[prim] == 1 ? " leaf" : " leaves") +
                                  ". A click shows it in colour; F looks at it.");
         }
     }
@@ -129,12 +129,12 @@ void triangle_list(const Context& context, const NodeFacts& facts) {
 }  // namespace
 
 void node_part(const Context& context) {
-    const NodeFacts* facts = context.input.facts;
-    if (facts == nullptr || context.input.built == nullptr) {
+    const NodeFacts* facts = context.side.facts;
+    if (facts == nullptr || context.side.built == nullptr) {
         note(context,
              "Click a box in the view to select its node; another click at the same place selects the next "
              "one there.");
-        if (!context.state.hidden_nodes.empty() || context.state.isolated != kNoIndex) {
+        if (!context.state.side().hidden_nodes.empty() || context.state.side().isolated != kNoIndex) {
             if (ImGui::Button("Put back")) put_nodes_back(context.state);
             tooltip(context, "Shift + Delete: everything that was hidden or isolated away is shown again.");
         }
@@ -161,21 +161,21 @@ void node_part(const Context& context) {
 }
 
 void hide_selected(ViewerState& state) {
-    if (state.node == kNoIndex) return;
-    if (std::ranges::find(state.hidden_nodes, state.node) == state.hidden_nodes.end())
-        state.hidden_nodes.push_back(state.node);
-    if (state.isolated == state.node) state.isolated = kNoIndex;
-    state.node = state.prim = kNoIndex;
+    if (state.side().node == kNoIndex) return;
+    if (std::ranges::find(state.side().hidden_nodes, state.side().node) == state.side().hidden_nodes.end())
+        state.side().hidden_nodes.push_back(state.side().node);
+    if (state.side().isolated == state.side().node) state.side().isolated = kNoIndex;
+    state.side().node = state.prim = kNoIndex;
 }
 
 void isolate_selected(ViewerState& state) {
-    if (state.node == kNoIndex) return;
-    state.isolated = state.isolated == state.node ? kNoIndex : state.node;
+    if (state.side().node == kNoIndex) return;
+    state.side().isolated = state.side().isolated == state.side().node ? kNoIndex : state.side().node;
 }
 
 void put_nodes_back(ViewerState& state) {
-    state.hidden_nodes.clear();
-    state.isolated = kNoIndex;
+    state.side().hidden_nodes.clear();
+    state.side().isolated = kNoIndex;
 }
 
 }  // namespace boxwood::panel

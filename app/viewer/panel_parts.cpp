@@ -2,6 +2,9 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <array>
+
 namespace boxwood::panel {
 
 void tooltip(const Context& context, const std::string& text) {
@@ -61,6 +64,46 @@ void swatch(const Context& context, const Vec3& srgb, const std::string& text) {
     ImGui::Dummy({size, ImGui::GetTextLineHeight()});
     ImGui::SameLine();
     ImGui::TextUnformatted(text.c_str());
+}
+
+void right_text(const std::string& text) {
+    const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(free, 0.0f));
+    ImGui::TextUnformatted(text.c_str());
+}
+
+void copy_buttons(const Context& context, const char* id, const std::function<std::string()>& tsv,
+                  const std::function<std::string()>& markdown, const std::function<std::string()>& json) {
+    const std::array<std::pair<const char*, const std::function<std::string()>*>, 3> kinds{
+        {{"TSV", &tsv}, {"Markdown", &markdown}, {"JSON", &json}}};
+    colored(context.colors.dim, "copy as");
+    ImGui::PushID(id);
+    for (const auto& [name, text] : kinds) {
+        ImGui::SameLine();
+        if (ImGui::SmallButton(name)) context.actions.push_back(CopyText{(*text)()});
+        tooltip(context, std::string("Copies this table as ") + name + ".");
+    }
+    ImGui::PopID();
+}
+
+std::optional<size_t> tabs(const Context& context, std::span<const Tab> all, size_t shown) {
+    std::optional<size_t> chosen;
+    for (size_t i = 0; i < all.size(); ++i) {
+        const bool is_shown = shown == i;
+        if (i > 0) ImGui::SameLine(0.0f, 18.0f * context.scale);
+        ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[2]);
+        colored(is_shown ? context.colors.text : context.colors.dim, all[i].name);
+        ImGui::PopFont();
+        if (ImGui::IsItemClicked()) chosen = i;
+        const ImVec2 lower = ImGui::GetItemRectMin(), upper = ImGui::GetItemRectMax();
+        if (is_shown || ImGui::IsItemHovered()) {
+            ImGui::GetWindowDrawList()->AddRectFilled(
+                {lower.x, upper.y + 1.0f * context.scale}, {upper.x, upper.y + 3.0f * context.scale},
+                im_packed(is_shown ? all[i].color : context.colors.dim));
+        }
+        tooltip(context, all[i].tip);
+    }
+    return chosen;
 }
 
 bool put_back() { return ImGui::IsItemClicked(ImGuiMouseButton_Right); }

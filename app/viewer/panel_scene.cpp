@@ -67,8 +67,8 @@ void frame_slider(const Context& context) {
     if (ImGui::Button(memory.playing ? "Pause" : "Play", {width, 0.0f})) memory.playing = !memory.playing;
     tooltip(context, "Shows one frame after another, each as soon as its structure is built, at most " +
                          std::to_string(kFramesPerSecond) + " a second.");
-    const bool is_shown = context.input.built != nullptr && !context.input.progress.running &&
-                          context.input.built->scene->spec == context.state.scene;
+    const bool is_shown = context.side.built != nullptr && !context.input.progress.running &&
+                          context.side.built->scene->spec == context.state.scene;
     memory.frame_seconds = memory.playing ? memory.frame_seconds + ImGui::GetIO().DeltaTime : 0.0f;
     if (is_shown && !is_held && memory.frame_seconds * kFramesPerSecond >= 1.0f) {
         frame = (frame + 1) % wanted->count;

@@ -89,11 +89,30 @@ void result(const Context& context, const bench::PictureCheck& check) {
     note(context, text);
 }
 
+void marks_of(const Context& context, const bench::PictureCheck& check, const PicturePlace& place) {
+    const ViewRect &view = place.rect, &part = place.part;
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    draw.PushClipRect({part.x, part.y}, {part.x + part.width, part.y + part.height}, true);
+    const uint32_t dark = im_packed(Vec3(0.0f)), bright = im_packed(kWrongColor);
+    const float radius = 4.0f * context.scale;
+    const auto width = static_cast<uint32_t>(check.width);
+    size_t left = kMostMarks;
+    for (const uint32_t pixel : check.modes[static_cast<size_t>(context.state.mode)].wrong_pixels) {
+        if (left-- == 0) break;
+        const float x = view.x + static_cast<float>(pixel % width) + 0.5f;
+        const float y = view.y + static_cast<float>(pixel / width) + 0.5f;
+        draw.AddCircle({x, y}, radius, dark, 16, 3.2f * context.scale);
+        draw.AddCircle({x, y}, radius, bright, 16, 1.8f * context.scale);
+        draw.AddRectFilled({x - 0.5f, y - 0.5f}, {x + 0.5f, y + 0.5f}, bright);
+    }
+    draw.PopClipRect();
+}
+
 }  // namespace
 
 void verify_part(const Context& context) {
     ViewerState& s = context.state;
-    if (context.input.built == nullptr) {
+    if (context.side.built == nullptr) {
         note(context, "No structure yet.");
         return;
     }
@@ -105,7 +124,7 @@ void verify_part(const Context& context) {
             "How many of the picture's rays are compared, evenly spread. In a large scene a ray takes "
             "milliseconds: each is judged by all triangles, without any tree.");
     ImGui::SameLine();
-    const bool runs = s.verify_rays > 0 && context.input.check == nullptr;
+    const bool runs = s.verify_rays > 0 && context.side.check == nullptr;
     if (runs) {
         if (ImGui::Button("Cancel", {button, 0.0f})) context.actions.push_back(CancelCheck{});
         tooltip(context, "Stops the check.");
@@ -116,11 +135,11 @@ void verify_part(const Context& context) {
                 "which makes no error.");
     }
     if (runs) {
-        const WorkProgress& progress = context.input.check_progress;
+        const WorkProgress& progress = context.side.check_progress;
         ImGui::ProgressBar(static_cast<float>(std::max(progress.share, 0.0)), {-1.0f, 0.0f});
         tooltip(context, "Rays cast in both modes and judged, " + time_text(progress.ms) + ".");
-    } else if (context.input.check != nullptr) {
-        result(context, *context.input.check);
+    } else if (context.side.check != nullptr) {
+        result(context, *context.side.check);
     } else {
         note(context,
              "Compares what the structure answers with rational arithmetic, for the rays of this view. "
@@ -130,22 +149,11 @@ void verify_part(const Context& context) {
 }
 
 void wrong_marks(const Context& context) {
-    const bench::PictureCheck* check = context.input.check;
-    const ViewRect& view = context.layout.traced;
-    if (check == nullptr || context.state.traced == TracedView::Off || view.width < 1.0f) return;
-    const bench::ModeCheck& mode = check->modes[static_cast<size_t>(context.state.mode)];
-    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-    const uint32_t dark = im_packed(Vec3(0.0f)), bright = im_packed(kWrongColor);
-    const float radius = 4.0f * context.scale;
-    const auto width = static_cast<uint32_t>(check->width);
-    size_t left = kMostMarks;
-    for (const uint32_t pixel : mode.wrong_pixels) {
-        if (left-- == 0) break;
-        const float x = view.x + static_cast<float>(pixel % width) + 0.5f;
-        const float y = view.y + static_cast<float>(pixel / width) + 0.5f;
-        draw.AddCircle({x, y}, radius, dark, 16, 3.2f * context.scale);
-        draw.AddCircle({x, y}, radius, bright, 16, 1.8f * context.scale);
-        draw.AddRectFilled({x - 0.5f, y - 0.5f}, {x + 0.5f, y + 0.5f}, bright);
+    if (context.state.traced == TracedView::Off) return;
+    for (const Side side : kSides) {
+        const bench::PictureCheck* check = context.input.side(side).check;
+        const PicturePlace& place = context.layout.side(side).traced;
+        if (check != nullptr && place.is_seen()) marks_of(context, *check, place);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "app/viewer/number_text.h"
 #include "app/viewer/panel_parts.h"
@@ -10,10 +11,6 @@ namespace boxwood::panel {
 namespace {
 
 const ViewerState kDefault{};
-
-int deepest_level(const PanelInput& input) {
-    return input.built != nullptr ? std::max(static_cast<int>(input.built->levels->level_count()) - 1, 0) : 0;
-}
 
 std::string level_text(const LevelRange& range, int deepest) {
     const int first = std::min(range.first, deepest), last = std::min(range.last, deepest);
@@ -63,8 +60,8 @@ constexpr std::array<const char*, 4> kColors{"level", "primitives below", "share
                                              "visits of rays"};
 constexpr std::array<const char*, 2> kVisitRays{"the picked ray", "all of the view"};
 constexpr std::array<const char*, 3> kTraced{"off", "beside", "over the mesh"};
-constexpr std::array<const char*, 5> kShadings{"primary", "normals", "ambient occlusion", "heat: nodes",
-                                               "heat: tests"};
+constexpr std::array<const char*, 6> kShadings{"primary",     "normals",     "ambient occlusion",
+                                               "heat: nodes", "heat: tests", "heat: exact"};
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
 /// What goes with boxes coloured by visits.
@@ -83,6 +80,15 @@ void visits_rows(const Context& context) {
 }
 
 }  // namespace
+
+int deepest_level(const PanelInput& input) {
+    int deepest = 0;
+    for (const SideInput& side : input.sides) {
+        if (side.built != nullptr)
+            deepest = std::max(deepest, static_cast<int>(side.built->levels->level_count()) - 1);
+    }
+    return deepest;
+}
 
 void view_part(const Context& context) {
     ViewerState& s = context.state;
@@ -131,7 +137,7 @@ void view_part(const Context& context) {
 
 void trace_part(const Context& context) {
     ViewerState& s = context.state;
-    const TraceState& trace = context.input.trace;
+    const TraceState& trace = context.side.trace;
     std::string done;
     if (s.traced != TracedView::Off) {
         done = trace.converged ? "converged" : percent_text(trace.progress, 1.0);
@@ -141,9 +147,15 @@ void trace_part(const Context& context) {
                 "The live CPU ray-traced picture, same camera (T).");
     if (s.traced == TracedView::Off) return;
     enum_choice(context, "shading", s.shading, kDefault.shading, kShadings,
-                "What a pixel shows; a heat map (H) counts the nodes visited or the primitives tested by its "
-                "primary ray.");
+                "What a pixel shows; a heat map (H) counts the nodes visited, the primitives tested, or the "
+                "decisions left to exact arithmetic by its primary ray.");
     if (is_heat(s.shading)) {
+        if (s.compares()) {
+            toggle(
+                context, "difference A \u2212 B", s.heat_difference, kDefault.heat_difference,
+                "The signed difference of both heat maps in one picture, zero in the middle of its colours "
+                "(J): orange where A does more, blue where B does more.");
+        }
         toggle(context, "logarithmic", s.log_heat, kDefault.log_heat, "Logarithmic scale of the heat map.");
         two_columns(context);
         ImGui::SetNextItemWidth(-1.0f);
@@ -158,6 +170,12 @@ void trace_part(const Context& context) {
     enum_choice(
         context, "intersection", s.mode, kDefault.mode, kModes,
         "exact: the answer of exact arithmetic; fast: float arithmetic, wrong only at edges and ties.");
+}
+
+float session_height(const Context& context) {
+    const float spacing = ImGui::GetStyle().ItemSpacing.y;
+    const float title = 2.0f * context.scale + ImGui::GetTextLineHeight() + 4.0f * spacing + 1.0f;
+    return std::ceil(title + 2.0f * ImGui::GetFrameHeight() + spacing);
 }
 
 void session_part(const Context& context) {

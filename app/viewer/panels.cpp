@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "app/viewer/panel_parts.h"
 
 namespace boxwood {
@@ -20,10 +22,17 @@ void begin_fixed(const char* name, const ViewRect& rect) {
 
 void left_panel(const panel::Context& context) {
     begin_fixed("left", context.layout.left);
+    // What is saved and undone stays in sight where the rest has to scroll.
+    const ViewRect& rect = context.layout.left;
+    const float rest = rect.height - panel::session_height(context) - ImGui::GetStyle().WindowPadding.y;
+    ImGui::SetCursorPos({0.0f, 0.0f});
+    ImGui::BeginChild("settings", {rect.width, std::max(rest, 1.0f)}, /*border=*/false,
+                      ImGuiWindowFlags_AlwaysUseWindowPadding);
     panel::scene_part(context);
     panel::recipe_part(context);
     panel::view_part(context);
     panel::trace_part(context);
+    ImGui::EndChild();
     panel::session_part(context);
     ImGui::End();
 }
@@ -32,7 +41,7 @@ void right_panel(const panel::Context& context) {
     begin_fixed("right", context.layout.right);
     panel::measures_part(context);
     panel::side_tabs(context);
-    switch (context.state.side) {
+    switch (context.state.side_panel) {
         case SidePanel::Levels:
             panel::level_table_part(context);
             break;
@@ -51,14 +60,15 @@ void right_panel(const panel::Context& context) {
 std::vector<Action> edit(ViewerState& state, const PanelInput& input, const FrameLayout& layout,
                          PanelMemory& memory) {
     std::vector<Action> actions;
-    const panel::Context context{
-        state, input, layout, memory, actions, theme_colors(state.theme), state.interface_scale};
+    const panel::Context context{state,  input,   input.side(state.active_side()), layout,
+                                 memory, actions, theme_colors(state.theme),       state.interface_scale};
     if (layout.left.width > 0.0f) {
         left_panel(context);
         right_panel(context);
         panel::status_line(context);
         panel::legends(context);
     }
+    panel::side_labels(context);
     panel::wrong_marks(context);
     panel::message_line(context);
     panel::work_line(context);

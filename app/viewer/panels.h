@@ -1,7 +1,8 @@
 #pragma once
 
-#include <map>
+#include <array>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,44 +14,57 @@
 #include "app/viewer/layout.h"
 #include "app/viewer/node_facts.h"
 #include "app/viewer/pointed.h"
+#include "app/viewer/tree_work.h"
 #include "app/viewer/visits.h"
 #include "bench/picture_check.h"
+#include "core/render/heat_compare.h"
 #include "core/render/progressive_tracer.h"
 
 namespace boxwood {
 
-/// What panels show beside the state: results, progress, what other parts found out.
-struct PanelInput {
-    const Scene* scene = nullptr;     ///< null: none is open yet
-    Box scene_bounds;                 ///< empty without a scene
-    const Built* built = nullptr;     ///< what is on screen; null: no structure yet
-    const TreeStats* tree = nullptr;  ///< of `built`
-    Camera camera;                    ///< what the frame shows
-    BuildProgress progress;
+/// What was found out for one side.
+struct SideInput {
+    const Built* built = nullptr;        ///< what is on screen; null: no structure yet
+    const TreeStats* tree = nullptr;     ///< of `built`
+    const SlowMeasures* slow = nullptr;  ///< of `built`; null: not known yet
+    WorkProgress slow_progress;
     const BoxValues* values = nullptr;  ///< of `built`
     uint64_t shared_count = 0;          ///< triangles in several leaves though one reference was made
-    const NodeFacts* facts = nullptr;   ///< of the selected node; null: none
-    size_t picked_place = 0;            ///< of the selected node among those under the last click
-    size_t picked_count = 0;            ///< 0: it was not selected by a click
-    const Visits* visits = nullptr;     ///< that box colours show; null: none (yet)
-    WorkProgress visits_progress;
+    std::string build_error;  ///< why the side's recipe is not what is shown; empty: it is, or will be
+    const NodeFacts* facts = nullptr;            ///< of the selected node; null: none
+    const Visits* visits = nullptr;              ///< that box colours show; null: none (yet)
     Hit ray_hit;                                 ///< of the state's ray
     const bench::PictureCheck* check = nullptr;  ///< null: not asked for, or not done
     WorkProgress check_progress;
-    std::string build_error;     ///< why the state's recipe is not what is shown; empty: it is, or will be
-    bool cancelled = false;      ///< the state's recipe was cancelled
-    double build_wait_ms = 0.0;  ///< from request to result of what is on screen
+    TraceState trace;                  ///< of the traced view; converged or not
+    double rays_per_second = 0.0;      ///< 0: not measured (yet)
+    std::optional<PixelValue> pixel;   ///< of the traced picture, under the pointer
+    BoxCounts boxes, reference_boxes;  ///< of the frame before
+};
+
+/// What panels show beside the state: results, progress, what other parts found out.
+struct PanelInput {
+    const Scene* scene = nullptr;  ///< null: none is open yet
+    Box scene_bounds;              ///< empty without a scene
+    std::array<SideInput, 2> sides;
+    Camera camera;  ///< what the frame shows
+    BuildProgress progress;
+    const HeatComparison* heat = nullptr;  ///< null: no two heat pictures are shown
+    size_t picked_place = 0;               ///< of the selected node among those under the last click
+    size_t picked_count = 0;               ///< 0: it was not selected by a click
+    bool cancelled = false;                ///< the state's recipes were cancelled
+    double build_wait_ms = 0.0;            ///< from request to result of what is on screen
     size_t cache_bytes = 0, cache_limit = 0, gpu_bytes = 0;
-    TraceState trace;  ///< of the traced view; converged or not
-    ColorScale scale;  ///< of the boxes
+    ColorScale scale;                                                   ///< of the boxes of both sides
     Vec3 empty_color{0.0f}, unvisited_color{0.0f}, shared_color{0.0f};  ///< sRGB
-    BoxCounts boxes, reference_boxes;                                   ///< of the frame before
     std::optional<Pointed> pointed;
-    std::optional<PixelValue> pixel;  ///< of the traced picture, under the pointer
-    std::string message;              ///< empty: none
+    Side pointed_side = Side::A;  ///< whose picture the pointer is on
+    std::string message;          ///< empty: none
     bool message_is_error = false;
     std::span<const std::string> recent;
     size_t undo_count = 0, redo_count = 0;
+
+    const SideInput& side(Side which) const { return sides[index_of(which)]; }
 };
 
 /// What widgets remember between frames: text being typed, dialogs. No part of the session.
@@ -58,6 +72,10 @@ struct PanelMemory {
     std::string recipe_text;                  ///< as typed
     std::string recipe_shown;                 ///< the state's recipe when recipe_text was last taken from it
     std::string recipe_error;                 ///< why recipe_text is no recipe
+    std::string recipe_note;                  ///< what a change in the panel did beyond what was asked for
+    std::string recipe_note_of;               ///< the recipe that it made
+    std::set<uint32_t> folded_stages;         ///< whose parameters are hidden
+    std::string last_b;                       ///< B's recipe when two were compared last
     bool ask_open = false, ask_save = false;  ///< opens the dialog in this frame
     std::string path;                         ///< typed in a dialog
     int verify_count = 1;                     ///< of the choices beside "Verify"

@@ -19,6 +19,7 @@ void RayWork::update(ViewerState& state, const std::shared_ptr<const Built>& bui
     update_visits(state, built, camera);
     update_check(state, built, camera);
     if (is_check_due_ && may_check) start_check(state.show_times);
+    tree_work_.update(state.show_panels ? built : nullptr, may_check && !check_progress().running);
 }
 
 void RayWork::update_ray(const ViewerState& state, const std::shared_ptr<const Built>& built) {
@@ -38,7 +39,7 @@ void RayWork::update_visits(const ViewerState& state, const std::shared_ptr<cons
     std::optional<VisitsKey> key;
     if (built && state.box_color == BoxColor::Visits) {
         if (state.visit_rays == VisitRays::Picture) {
-            const ViewRect view = make_layout(state).scene;
+            const ViewRect view = make_layout(state).side(Side::A).scene.rect;
             key = VisitsKey{.built = built,
                             .mode = state.mode,
                             .camera = camera,
@@ -72,8 +73,8 @@ void RayWork::update_visits(const ViewerState& state, const std::shared_ptr<cons
 void RayWork::update_check(ViewerState& state, const std::shared_ptr<const Built>& built,
                            const Camera& camera) {
     if (!built && state.verify_rays > 0 && !check_of_) return;  // it waits for the first structure
-    const FrameLayout layout = make_layout(state);
-    const ViewRect& view = state.traced == TracedView::Off ? layout.scene : layout.traced;
+    const SideLayout places = make_layout(state).side(Side::A);
+    const ViewRect& view = (state.traced == TracedView::Off ? places.scene : places.traced).rect;
     CheckKey key{built, camera, static_cast<int>(view.width), static_cast<int>(view.height),
                  state.verify_rays};
     if (check_of_ && state.verify_rays > 0) {
@@ -119,6 +120,7 @@ void RayWork::cancel_check(ViewerState& state) {
 void RayWork::wait() const {
     visits_work_.wait();
     check_work_.wait();
+    tree_work_.wait();
 }
 
 }  // namespace boxwood

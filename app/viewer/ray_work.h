@@ -5,19 +5,20 @@
 
 #include "app/viewer/background.h"
 #include "app/viewer/layout.h"
+#include "app/viewer/tree_work.h"
 #include "app/viewer/visits.h"
 #include "bench/picture_check.h"
 #include "core/catalog/pipeline.h"
 
 namespace boxwood {
 
-/// The rays that a session asks for beside the traced picture: the picked ray, the visits of the nodes, and
-/// the check of the picture. Whole pictures are cast in the background. One thread.
+/// What a session asks for beside the traced picture: the picked ray, the visits of the nodes, the check of
+/// the picture, and measures of the tree. What takes long is done in the background. One thread.
 class RayWork {
 public:
     /// Takes over what is finished and starts what the state asks for. A check is of the structure, view and
     /// size it was asked for: where one of these changes the state's request is taken back. It waits until
-    /// `may_check`.
+    /// `may_check`, as measures do.
     void update(ViewerState& state, const std::shared_ptr<const Built>& built, const Camera& camera,
                 bool may_check);
     /// Stops the check; the state's request is taken back.
@@ -26,9 +27,14 @@ public:
     const CastResults& cast() const { return cast_; }
     /// Null: not asked for, or not done.
     const std::shared_ptr<const bench::PictureCheck>& check() const { return check_; }
+    /// Null: not known yet, or no panel shows them.
+    const std::shared_ptr<const SlowMeasures>& tree_measures() const { return tree_work_.measures(); }
+    WorkProgress tree_progress() const { return tree_work_.progress(); }
     WorkProgress check_progress() const { return check_work_.progress(); }
     WorkProgress visits_progress() const { return visits_work_.progress(); }
-    bool busy() const { return is_check_due_ || visits_progress().running || check_progress().running; }
+    bool busy() const {
+        return is_check_due_ || visits_progress().running || check_progress().running || tree_work_.busy();
+    }
     void wait() const;
 
 private:
@@ -60,6 +66,7 @@ private:
     bool is_check_due_ = false;  ///< asked for and not started
     Background<Visits> visits_work_;
     Background<bench::PictureCheck> check_work_;
+    TreeWork tree_work_;
 };
 
 }  // namespace boxwood

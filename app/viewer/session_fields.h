@@ -8,6 +8,8 @@
 namespace boxwood {
 
 inline constexpr std::array<const char*, 2> kModeNames{"exact", "fast"};
+inline constexpr std::array<const char*, 2> kSideNames{"a", "b"};
+inline constexpr std::array<const char*, 2> kCompareViewNames{"wipe", "beside"};
 inline constexpr std::array<const char*, 3> kTracedViewNames{"off", "beside", "over"};
 inline constexpr std::array<const char*, 4> kBoxColorNames{"level", "primitives", "sah-share", "visits"};
 inline constexpr std::array<const char*, 2> kVisitRaysNames{"picked", "picture"};
@@ -25,7 +27,13 @@ void describe_session(Visitor& v, Session& session, const Session& defaults) {
     ViewerState& s = session.state;
     const ViewerState& d = defaults.state;
     v.scene("scene", s.scene, d.scene);
-    v.text("recipe", s.recipe, d.recipe);
+    SideState &a = s.sides[0], &b = s.sides[1];
+    v.text("recipe", a.recipe, d.side(Side::A).recipe);
+    v.text("recipe_b", b.recipe, d.side(Side::B).recipe);
+    v.choice("active", s.active, d.active, kSideNames);
+    v.choice("compare", s.compare_view, d.compare_view, kCompareViewNames);
+    v.number("wipe", s.wipe, d.wipe, 0.0f, 1.0f);
+    v.flag("difference", s.heat_difference, d.heat_difference);
     v.choice("mode", s.mode, d.mode, kModeNames);
     v.camera("camera", s.camera);
     v.views("views", s.stored_views);
@@ -44,11 +52,14 @@ void describe_session(Visitor& v, Session& session, const Session& defaults) {
     v.choice("visit_rays", s.visit_rays, d.visit_rays, kVisitRaysNames);
     v.flag("unvisited", s.show_unvisited, d.show_unvisited);
     v.ray("ray", s.ray);
-    v.index("node", s.node);
+    v.index("node", a.node);
     v.index("triangle", s.prim);
-    v.indices("hidden", s.hidden_nodes);
-    v.index("isolated", s.isolated);
-    v.choice("side", s.side, d.side, kSidePanelNames);
+    v.indices("hidden", a.hidden_nodes);
+    v.index("isolated", a.isolated);
+    v.index("node_b", b.node);
+    v.indices("hidden_b", b.hidden_nodes);
+    v.index("isolated_b", b.isolated);
+    v.choice("side", s.side_panel, d.side_panel, kSidePanelNames);
     v.whole_number("verify_rays", s.verify_rays, d.verify_rays, 0, kMostVerifyRays);
     v.choice("traced", s.traced, d.traced, kTracedViewNames);
     v.choice("shade", s.shading, d.shading, kShadingNames);

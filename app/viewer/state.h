@@ -36,6 +36,18 @@ enum class VisitRays : uint8_t {
 /// What the lower half of the right panel shows.
 enum class SidePanel : uint8_t { Levels, Node, Verify };
 
+/// One of the two recipes that a window can show against each other.
+enum class Side : uint8_t { A, B };
+inline constexpr std::array<Side, 2> kSides{Side::A, Side::B};
+inline constexpr size_t index_of(Side side) { return static_cast<size_t>(side); }
+inline constexpr Side other_side(Side side) { return side == Side::A ? Side::B : Side::A; }
+
+/// How two recipes share the view; the camera is the same for both.
+enum class CompareView : uint8_t {
+    Wipe,    ///< one picture, A to the left of a bar, B to the right of it
+    Beside,  ///< a picture each, A on the left
+};
+
 enum class Theme : uint8_t { Dark, Light };
 
 enum class UpAxis : uint8_t { X, Y, Z };
@@ -58,11 +70,26 @@ struct PickedRay {
     bool operator==(const PickedRay&) const = default;
 };
 
+/// What belongs to one recipe. Nodes are those of what scene and recipe make; another scene or recipe forgets
+/// them.
+struct SideState {
+    std::string recipe;                    ///< text, see parse_recipe; of B: empty where nothing is compared
+    uint32_t node = kNoIndex;              ///< selected; index into NodeList::nodes
+    std::vector<uint32_t> hidden_nodes{};  ///< with all below them, and the triangles in no other leaf
+    uint32_t isolated = kNoIndex;          ///< node: only it and what is below it is shown
+
+    bool operator==(const SideState&) const = default;
+};
+
 /// The truth of a session: plain data, of which everything that a frame shows is derived. A default value is
 /// what a new session shows.
 struct ViewerState {
-    std::string scene = "atrium";                         ///< see open_scene; a file as the user named it
-    std::string recipe = "evh(t=14) > bvh-binned-sah";    ///< text, see parse_recipe
+    std::string scene = "atrium";  ///< see open_scene; a file as the user named it
+    std::array<SideState, 2> sides{SideState{.recipe = "evh(t=14) > bvh-binned-sah"}, SideState{}};
+    Side active = Side::A;  ///< that panels and keys edit, where two are compared
+    CompareView compare_view = CompareView::Wipe;
+    float wipe = 0.5f;                                    ///< place of the bar, 0 to 1 of the picture's width
+    bool heat_difference = false;                         ///< a heat map of two recipes shows A - B
     Mode mode = Mode::Exact;                              ///< how rays decide intersections
     std::optional<Camera> camera;                         ///< none: the scene's own view, or all of it
     std::array<std::optional<Camera>, 9> stored_views{};  ///< keys 1 to 9
@@ -83,13 +110,9 @@ struct ViewerState {
     bool show_unvisited = false;   ///< where colours say visits: boxes that no ray visited, faint
     std::optional<PickedRay> ray;  ///< drawn as a line
 
-    // Nodes and triangles of what scene and recipe make; another scene or recipe forgets them.
-    uint32_t node = kNoIndex;            ///< selected; index into NodeList::nodes
-    uint32_t prim = kNoIndex;            ///< selected triangle; index into Mesh::triangles
-    std::vector<uint32_t> hidden_nodes;  ///< with all below them, and the triangles in no other leaf
-    uint32_t isolated = kNoIndex;        ///< node: only it and what is below it is shown
+    uint32_t prim = kNoIndex;  ///< selected triangle; index into Mesh::triangles; forgotten with the nodes
 
-    SidePanel side = SidePanel::Levels;
+    SidePanel side_panel = SidePanel::Levels;
     int verify_rays = 0;  ///< rays of the traced view, or the view, to be checked; 0: none asked for
 
     TracedView traced = TracedView::Off;
@@ -106,6 +129,19 @@ struct ViewerState {
     bool show_panels = true;
     bool show_times = true;  ///< measured times and rates; without, the frame is the same on every machine
     bool show_keys = false;  ///< the list of all keys over the picture
+
+    /// Two recipes are shown.
+    bool compares() const { return !sides[1].recipe.empty(); }
+    bool has(Side which) const { return which == Side::A || compares(); }
+    Side active_side() const { return compares() ? active : Side::A; }
+    /// Of the side that panels and keys edit.
+    SideState& side() { return sides[index_of(active_side())]; }
+    const SideState& side() const { return sides[index_of(active_side())]; }
+    const SideState& side(Side which) const { return sides[index_of(which)]; }
+    /// The heat map shows A - B.
+    bool shows_difference() const {
+        return compares() && heat_difference && traced != TracedView::Off && is_heat(shading);
+    }
 
     bool operator==(const ViewerState&) const = default;
 };

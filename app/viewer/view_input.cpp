@@ -30,6 +30,7 @@ ViewInput::Drag started_drag() {
 bool is_held(ViewInput::Drag drag) {
     switch (drag) {
         case ViewInput::Drag::Orbit:
+        case ViewInput::Drag::Wipe:
             return ImGui::IsMouseDown(ImGuiMouseButton_Left);
         case ViewInput::Drag::Pan:
             return ImGui::IsMouseDown(ImGuiMouseButton_Middle);
@@ -70,16 +71,40 @@ void handle_click(const ViewerState& state, ViewInput& input, const Vec2& pointe
     }
 }
 
+/// True while a wipe bar is held; a double click puts it back to the middle.
+bool drag_wipe(ViewerState& state, ViewInput& input, const FrameLayout& layout, const Vec2& pointer,
+               bool may_begin) {
+    const std::optional<WipeBar> bar = bar_at(layout, pointer, state.interface_scale);
+    const bool is_over = bar && may_begin && input.drag == ViewInput::Drag::None;
+    if (is_over || input.drag == ViewInput::Drag::Wipe) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    if (is_over && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+        input.drag = ViewInput::Drag::Wipe;
+        input.bar = *bar;
+        input.pressed = pointer;
+        input.may_click = false;
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) state.wipe = ViewerState{}.wipe;
+    }
+    if (input.drag != ViewInput::Drag::Wipe) return false;
+    if (!is_held(input.drag)) {
+        input.drag = ViewInput::Drag::None;
+        return false;
+    }
+    if (pointer != input.pressed) state.wipe = wipe_at(input.bar, input.bar.x + pointer.x - input.pressed.x);
+    return true;
+}
+
 }  // namespace
 
 bool move_camera(ViewerState& state, ViewInput& input, const FrameLayout& layout, const Camera& camera,
                  const Box& scene, std::vector<Action>& actions) {
     const ImGuiIO& io = ImGui::GetIO();
     const Vec2 pointer(io.MousePos.x, io.MousePos.y);
-    const ViewRect& view = layout.scene.contains(pointer) ? layout.scene : layout.traced;
-    const bool over_view = view.contains(pointer) && !io.WantCaptureMouse;
+    const std::optional<PictureHit> picture = picture_at(layout, pointer);
+    const ViewRect view = picture ? picture->rect : layout.side(Side::A).scene.rect;
+    const bool over_view = picture && !io.WantCaptureMouse;
     const Vec3 up = up_vector(state.up_axis);
 
+    if (drag_wipe(state, input, layout, pointer, !io.WantCaptureMouse)) return true;
     if (over_view && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         actions.push_back(FocusPoint{pointer});
         input.may_click = false;
@@ -91,7 +116,7 @@ bool move_camera(ViewerState& state, ViewInput& input, const FrameLayout& layout
     if (input.drag == ViewInput::Drag::Orbit && delta != Vec2(0.0f)) {
         state.camera = orbit(camera, up, -delta.x * kRadiansPerPixel, delta.y * kRadiansPerPixel);
     } else if (input.drag == ViewInput::Drag::Pan && delta != Vec2(0.0f)) {
-        state.camera = pan(camera, delta, layout.scene);
+        state.camera = pan(camera, delta, layout.side(Side::A).scene.rect);
     } else if (input.drag == ViewInput::Drag::Look &&
                (delta != Vec2(0.0f) || fly_direction() != Vec3(0.0f))) {
         state.camera = look_and_fly(camera, up, delta, scene);

@@ -18,13 +18,15 @@ bool needs_structure(const ViewerState& state) {
 }
 
 BuildRequest request_of(const ViewerState& state) {
-    return {.scene = state.scene, .recipe = state.recipe, .structure = needs_structure(state)};
+    return {.scene = state.scene,
+            .recipes = {state.side(Side::A).recipe, state.side(Side::B).recipe},
+            .structure = needs_structure(state)};
 }
 
 /// Whether a frame that shows one request shows all of the other.
 bool satisfies(const BuildRequest& shown, const BuildRequest& wanted) {
     if (shown.scene != wanted.scene) return false;
-    return !wanted.structure || (shown.structure && shown.recipe == wanted.recipe);
+    return !wanted.structure || (shown.structure && shown.recipes == wanted.recipes);
 }
 
 }  // namespace
@@ -45,7 +47,7 @@ Camera Viewer::camera() const {
         scene_->camera ? *scene_->camera : fit_camera(scene_bounds_, Camera{}.fov, up_vector(state.up_axis));
     // A view narrower than the one such cameras are made for keeps the width of what they show.
     const float aspect = scene_->camera ? 1.25f : 1.0f;
-    const ViewRect view = make_layout(state).scene;
+    const ViewRect view = make_layout(state).side(Side::A).scene.rect;
     if (view.width < aspect * view.height) {
         const float slope = std::tan(glm::radians(0.5f * camera.fov)) * aspect * view.height / view.width;
         camera.fov = std::min(glm::degrees(2.0f * std::atan(slope)), 100.0f);
@@ -60,9 +62,10 @@ Session Viewer::session() const {
 }
 
 bool Viewer::busy() const {
-    if (panel_memory.playing) return true;
-    if (job_.progress().running || asked_ != wanted() || rays_.busy()) return true;
-    return tracing_ && !trace_paused_ && !tracer_->state().converged;
+    if (panel_memory.playing || job_.progress().running || asked_ != wanted() || compare_.busy()) return true;
+    return std::ranges::any_of(works_, [](const std::unique_ptr<SideWork>& work) {
+        return work->rays.busy() || work->is_trace_busy();
+    });
 }
 
 void Viewer::say(const std::string& sentence, bool is_error) {
@@ -78,13 +81,25 @@ BuildRequest Viewer::wanted() const {
 
 void Viewer::update(bool editing) {
     if (const std::optional<BuildResult> result = job_.take()) take(*result);
+    if (!state.compares() && work(Side::B).built()) works_[1] = std::make_unique<SideWork>();
     forget_nodes();
     request_build();
     update_trace();
-    // The picture first: a check beside it would slow both down, and be timed as slow.
-    rays_.update(state, built_, camera(), !tracing_ || tracer_->state().converged);
-    update_nodes();
+    // The pictures first: a check beside them would slow both down, and be timed as slow.
+    bool may_check = have_converged();
+    for (const Side side : kSides) {
+        SideWork& work = *works_[index_of(side)];
+        work.rays.update(state, work.built(), camera(), may_check);
+        work.update_nodes(state.side(side));
+        may_check = may_check && !work.rays.busy();
+    }
+    compare_.update_race(wanted_race(), may_check && !job_.progress().running);
     undo_.note(state, editing || opening_.has_value() || panel_memory.playing);
+}
+
+bool Viewer::have_converged() const {
+    return std::ranges::all_of(works_,
+                               [](const std::unique_ptr<SideWork>& work) { return work->has_converged(); });
 }
 
 bool Viewer::shows(const BuildRequest& request) const { return shown_ && satisfies(*shown_, request); }
@@ -92,28 +107,15 @@ bool Viewer::shows(const BuildRequest& request) const { return shown_ && satisfi
 void Viewer::forget_nodes() {
     const NodesKey key = NodesKey::of(state);
     if (key == nodes_of_) return;
-    if (key.scene != nodes_of_.scene) state.ray.reset();
-    nodes_of_ = key;
-    state.node = state.prim = state.isolated = kNoIndex;
-    state.hidden_nodes.clear();
-    picked_at_.reset();
-}
-
-void Viewer::update_nodes() {
-    const bool is_other = nodes_built_ != built_;
-    nodes_built_ = built_;
-    if (is_other || !visibility_ || hidden_shown_ != state.hidden_nodes ||
-        isolated_shown_ != state.isolated) {
-        hidden_shown_ = state.hidden_nodes;
-        isolated_shown_ = state.isolated;
-        visibility_ = std::make_shared<const Visibility>(
-            built_ ? visible_parts(state, built_->levels->list, built_->scene->mesh.triangle_count())
-                   : Visibility{});
+    const bool is_other_scene = key.scene != nodes_of_.scene;
+    if (is_other_scene) state.ray.reset();
+    for (size_t side = 0; side < state.sides.size(); ++side) {
+        if (is_other_scene || key.recipes[side] != nodes_of_.recipes[side])
+            state.sides[side] = SideState{.recipe = state.sides[side].recipe};
     }
-    const bool exists = built_ && state.node < built_->levels->list.nodes.size();
-    if (!exists) facts_.reset();
-    if (exists && (is_other || !facts_ || facts_->node != state.node))
-        facts_ = node_facts(built_->levels->list, *values_, state.node);
+    state.prim = kNoIndex;
+    nodes_of_ = key;
+    picked_at_.reset();
 }
 
 void Viewer::request_build() {
@@ -126,10 +128,7 @@ void Viewer::request_build() {
         job_.cancel();
         return;
     }
-    if (tracing_) {
-        tracer_->stop();
-        trace_paused_ = true;
-    }
+    for (const std::unique_ptr<SideWork>& work : works_) work->pause_trace();
     job_.request(request);
 }
 
@@ -155,15 +154,12 @@ void Viewer::take(const BuildResult& result) {
         message_.clear();
         for (const std::string& note : session_.notes) say(note, false);
     }
-    build_error_ = result.error;
-    build_exit_code_ = result.exit_code;
+    build_error_.clear();
     if (scene_ != result.scene) {
         if (!is_built_in(state.scene)) settings_.add_recent(scene_file(state.scene));
         scene_ = result.scene;
         scene_bounds_ = scene_->mesh.bounds();
-        built_.reset();
-        values_.reset();
-        tree_.reset();
+        for (const std::unique_ptr<SideWork>& work : works_) work->clear();
     }
     if (scene_->mesh.triangle_count() == 0) {
         say(scene_->title + (scene_->mesh.points.positions.empty()
@@ -173,31 +169,27 @@ void Viewer::take(const BuildResult& result) {
     }
     shown_ = result.request;
     shown_->reload = false;
-    shown_->structure = result.built != nullptr;
-    if (!result.built) return;
-    built_ = result.built;
-    values_ = result.values;
-    tree_ = result.tree;
-    shared_count_ = result.shared_count;
-    build_wait_ms_ = result.ms;
+    shown_->structure = result.sides[0].built != nullptr &&
+                        (result.request.recipes[1].empty() || result.sides[1].built != nullptr);
+    for (size_t side = 0; side < works_.size(); ++side) works_[side]->take(result.sides[side]);
+    if (shown_->structure) build_wait_ms_ = result.ms;
 }
 
 std::optional<TraceSettings> Viewer::wanted_trace() const {
-    const FrameLayout layout = make_layout(state);
-    if (state.traced == TracedView::Off || !built_ || layout.traced.width < 1.0f ||
-        layout.traced.height < 1.0f) {
-        return std::nullopt;
-    }
+    const ViewRect view = make_layout(state).side(Side::A).traced.rect;
+    if (state.traced == TracedView::Off || view.width < 1.0f || view.height < 1.0f) return std::nullopt;
     TraceSettings settings;
     settings.camera = camera();
-    settings.width = static_cast<int>(layout.traced.width);
-    settings.height = static_cast<int>(layout.traced.height);
+    settings.width = static_cast<int>(view.width);
+    settings.height = static_cast<int>(view.height);
     settings.shading = state.shading;
     settings.mode = state.mode;
-    settings.spp = state.spp;
-    settings.color_map = state.color_map;
-    settings.log_heat = state.log_heat;
-    settings.heat_max = static_cast<double>(state.heat_max);
+    settings.spp = shows_two_heats() ? 1 : state.spp;  // pixel centres are what is compared
+    if (!shows_two_heats()) {
+        settings.color_map = state.color_map;
+        settings.log_heat = state.log_heat;
+        settings.heat_max = static_cast<double>(state.heat_max);
+    }
     if (state.theme == Theme::Light) settings.background = linear_from_srgb(Vec3(0.93f, 0.94f, 0.95f));
     settings.measure = state.show_panels;
     return settings;
@@ -205,20 +197,53 @@ std::optional<TraceSettings> Viewer::wanted_trace() const {
 
 void Viewer::update_trace() {
     const std::optional<TraceSettings> settings = wanted_trace();
-    if (!settings) {
-        if (tracing_) tracer_->stop();
-        tracing_.reset();
-        return;
+    for (const Side side : kSides) {
+        works_[index_of(side)]->update_trace(state.has(side) ? settings : std::nullopt,
+                                             job_.progress().running);
     }
-    const bool same = tracing_ == settings && traced_built_ == built_;
-    if (!same || (trace_paused_ && !job_.progress().running)) {
-        if (!tracer_) tracer_ = std::make_unique<ProgressiveTracer>();
-        tracer_->start(scene_, built_->structure, *settings);
-        tracing_ = settings;
-        traced_built_ = built_;
-        trace_paused_ = false;
+    if (shows_two_heats()) {
+        compare_.update_heat({work(Side::A).counts(), work(Side::B).counts()},
+                             {.shading = state.shading,
+                              .color_map = state.color_map,
+                              .log_heat = state.log_heat,
+                              .heat_max = static_cast<double>(state.heat_max),
+                              .dark_middle = state.theme == Theme::Dark});
+    } else {
+        compare_.clear_heat();
     }
-    tracer_->snapshot(traced_image_, traced_version_);
+    update_pictures();
+}
+
+Viewer::PictureSource Viewer::picture_source(Side side) const {
+    if (!shows_two_heats()) return {&work(side), work(side).image_version()};
+    return {compare_.heat().get(), compare_.heat_version(), state.shows_difference()};
+}
+
+void Viewer::update_pictures() {
+    for (const Side side : kSides) {
+        const PictureSource source = picture_source(side);
+        PictureSource& last = picture_sources_[index_of(side)];
+        if (source != last) picture_versions_[index_of(side)] = ++picture_count_;
+        last = source;
+    }
+}
+
+Viewer::TracedPicture Viewer::traced_picture(Side side) const {
+    const PictureSource& source = picture_sources_[index_of(side)];
+    if (source.owner == nullptr || source.version == 0) return {};
+    const uint64_t version = picture_versions_[index_of(side)];
+    const HeatComparison* heat = shows_two_heats() ? compare_.heat().get() : nullptr;
+    if (heat == nullptr) return {&work(side).image(), version};
+    return {source.is_difference ? &heat->difference : &heat->images[index_of(side)], version};
+}
+
+std::optional<CompareWork::RaceKey> Viewer::wanted_race() const {
+    const std::optional<TraceSettings> settings = wanted_trace();
+    if (!settings || !state.compares() || !state.show_times || !state.show_panels || !scene_)
+        return std::nullopt;
+    const auto &a = work(Side::A).built(), &b = work(Side::B).built();
+    if (!a || !b) return std::nullopt;
+    return CompareWork::RaceKey{{a, b}, settings->mode, settings->camera, settings->width, settings->height};
 }
 
 void Viewer::require_scene() const {
@@ -231,61 +256,87 @@ void Viewer::wait() {
         job_.wait();
         update(false);
         if (!build_error_.empty()) throw Error(build_exit_code_, build_error_);
+        for (const std::unique_ptr<SideWork>& work : works_)
+            if (!work->build_error().empty()) throw Error(work->build_exit_code(), work->build_error());
     } while (job_.progress().running || opening_ || !shows(request_of(state)));
-    constexpr double kLong = 1000.0;  // ms
+    const auto is_busy = [](const std::unique_ptr<SideWork>& work) { return work->rays.busy(); };
     do {
         update(false);
-        while (tracing_ && !tracer_->wait(kLong)) {
-        }
+        for (const std::unique_ptr<SideWork>& work : works_) work->wait_for_trace();
         update(false);
-        rays_.wait();
+        for (const std::unique_ptr<SideWork>& work : works_) work->rays.wait();
+        compare_.wait();
         update(false);
-    } while (rays_.busy());
+    } while (std::ranges::any_of(works_, is_busy) || compare_.busy());
+}
+
+BoxRanges Viewer::box_ranges() const {
+    BoxRanges ranges;
+    for (const Side side : kSides) {
+        const SideWork& of = work(side);
+        if (of.built()) ranges.extend(*of.built()->levels, *of.values(), of.rays.cast().visits.get());
+    }
+    return ranges;
 }
 
 PanelInput Viewer::panel_input(const Vec2& pointer) const {
     PanelInput input;
     input.scene = scene_.get();
     input.scene_bounds = scene_bounds_;
-    input.built = built_.get();
-    input.tree = tree_.get();
     input.camera = camera();
     input.progress = job_.progress();
-    input.build_error = build_error_;
     input.cancelled = cancelled_;
     input.build_wait_ms = build_wait_ms_;
     input.cache_bytes = job_.cache().byte_count();
     input.cache_limit = job_.cache().byte_limit();
-    if (tracing_) input.trace = tracer_->state();
     input.message = message_;
     input.message_is_error = message_is_error_;
     input.recent = settings_.recent;
-    input.values = values_.get();
-    input.shared_count = shared_count_;
-    input.facts = facts_ ? &*facts_ : nullptr;
     input.picked_place = picked_place_;
     input.picked_count = picked_at_ ? picked_count_ : 0;
-    input.visits = rays_.cast().visits.get();
-    input.visits_progress = rays_.visits_progress();
-    input.ray_hit = rays_.cast().ray_hit;
-    input.check = rays_.check().get();
-    input.check_progress = rays_.check_progress();
+    input.heat = compare_.heat().get();
     input.undo_count = undo_.back_count();
     input.redo_count = undo_.forward_count();
-
-    constexpr size_t kTooManyToTest = 200000;  // without nodes each would be tested for each frame
-    const bool is_list = built_ && built_->levels->level_count() <= 1;
-    if (!built_ || (is_list && scene_->mesh.triangle_count() > kTooManyToTest)) return input;
-    const FrameLayout layout = make_layout(state);
-    const bool on_scene = layout.scene.contains(pointer), on_traced = layout.traced.contains(pointer);
-    if (!on_scene && !on_traced) return input;
-    const ViewRect& view = on_scene ? layout.scene : layout.traced;
-    input.pointed = point_at(*built_, *values_, state, pointer_ray(camera(), pointer, view));
-    if (tracing_ && on_traced) {
-        input.pixel = tracer_->picked(static_cast<int>(pointer.x - layout.traced.x),
-                                      static_cast<int>(pointer.y - layout.traced.y));
+    const std::array<double, 2> rates = compare_.rays_per_second();
+    for (const Side side : kSides) {
+        const SideWork& from = work(side);
+        SideInput& to = input.sides[index_of(side)];
+        to.built = from.built().get();
+        to.tree = from.tree().get();
+        to.slow = from.rays.tree_measures().get();
+        to.slow_progress = from.rays.tree_progress();
+        to.values = from.values().get();
+        to.shared_count = from.shared_count();
+        to.build_error = from.build_error();
+        to.facts = from.facts();
+        to.visits = from.rays.cast().visits.get();
+        to.ray_hit = from.rays.cast().ray_hit;
+        to.check = from.rays.check().get();
+        to.check_progress = from.rays.check_progress();
+        to.trace = from.trace_state();
+        to.rays_per_second = state.compares() ? rates[index_of(side)] : to.trace.rays_per_second;
     }
+    point_in(input, pointer);
     return input;
+}
+
+void Viewer::point_in(PanelInput& input, const Vec2& pointer) const {
+    const FrameLayout layout = make_layout(state);
+    const std::optional<PictureHit> picture = picture_at(layout, pointer);
+    if (!picture) return;
+    const SideWork& of = work(picture->side);
+    input.pointed_side = picture->side;
+    constexpr size_t kTooManyToTest = 200000;  // without nodes each would be tested for each frame
+    const Built* built = of.built().get();
+    if (built == nullptr ||
+        (built->levels->level_count() <= 1 && scene_->mesh.triangle_count() > kTooManyToTest))
+        return;
+    input.pointed = point_at(*built, *of.values(), state, pointer_ray(camera(), pointer, picture->rect));
+    const PicturePlace& traced = layout.side(picture->side).traced;
+    if (!traced.part.contains(pointer)) return;
+    const int x = static_cast<int>(pointer.x - traced.rect.x),
+              y = static_cast<int>(pointer.y - traced.rect.y);
+    for (const Side side : kSides) input.sides[index_of(side)].pixel = work(side).pixel(x, y);
 }
 
 }  // namespace boxwood

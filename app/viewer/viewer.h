@@ -6,16 +6,13 @@
 
 #include "app/viewer/action.h"
 #include "app/viewer/build_job.h"
-#include "app/viewer/marks.h"
-#include "app/viewer/node_facts.h"
+#include "app/viewer/compare_work.h"
 #include "app/viewer/panels.h"
 #include "app/viewer/pick.h"
-#include "app/viewer/ray_work.h"
 #include "app/viewer/session.h"
 #include "app/viewer/settings.h"
+#include "app/viewer/side_work.h"
 #include "app/viewer/undo.h"
-#include "core/render/image.h"
-#include "core/render/progressive_tracer.h"
 
 namespace boxwood {
 
@@ -46,15 +43,27 @@ public:
 
     const std::shared_ptr<const Scene>& scene() const { return scene_; }
     const Box& scene_bounds() const { return scene_bounds_; }
-    const std::shared_ptr<const Built>& built() const { return built_; }
-    const std::shared_ptr<const BoxValues>& values() const { return values_; }
-    /// What hidden and isolated nodes leave to be seen; null before the first update.
-    const std::shared_ptr<const Visibility>& visibility() const { return visibility_; }
-    const CastResults& cast() const { return rays_.cast(); }
-    const std::shared_ptr<const bench::PictureCheck>& check() const { return rays_.check(); }
-    /// The traced picture and its number; number 0: none yet.
-    const Image& traced_image() const { return traced_image_; }
-    uint64_t traced_version() const { return traced_version_; }
+    const SideWork& work(Side side) const { return *works_[index_of(side)]; }
+    /// Of the active side.
+    const std::shared_ptr<const Built>& built() const { return work(state.active_side()).built(); }
+    const CastResults& cast() const { return work(state.active_side()).rays.cast(); }
+    const std::shared_ptr<const Visibility>& visibility() const {
+        return work(state.active_side()).visibility();
+    }
+    const std::shared_ptr<const bench::PictureCheck>& check() const {
+        return work(state.active_side()).rays.check();
+    }
+    /// Null where no two heat pictures are shown.
+    const std::shared_ptr<const HeatComparison>& heat() const { return compare_.heat(); }
+    /// What box colours span: one scale for all sides.
+    BoxRanges box_ranges() const;
+
+    /// The traced picture that a side shows: its own, or what compares it with the other's.
+    struct TracedPicture {
+        const Image* image = nullptr;
+        uint64_t version = 0;  ///< 0: none yet; never the same for two pictures
+    };
+    TracedPicture traced_picture(Side side) const;
     /// The state's camera, or the scene's own.
     Camera camera() const;
     /// The session of this moment, for files and the clipboard.
@@ -79,20 +88,37 @@ private:
     };
     /// What node and triangle numbers belong to.
     struct NodesKey {
-        std::string scene, recipe;
-        static NodesKey of(const ViewerState& state) { return {state.scene, state.recipe}; }
+        std::string scene;
+        std::array<std::string, 2> recipes;
+        static NodesKey of(const ViewerState& state) {
+            return {state.scene, {state.side(Side::A).recipe, state.side(Side::B).recipe}};
+        }
         bool operator==(const NodesKey&) const = default;
+    };
+    /// Where a traced picture comes from.
+    struct PictureSource {
+        const void* owner = nullptr;
+        uint64_t version = 0;
+        bool is_difference = false;
+        bool operator==(const PictureSource&) const = default;
     };
     void take(const BuildResult& result);
     /// Whether what is on screen is all that the request asks for.
     bool shows(const BuildRequest& request) const;
     void forget_nodes();
-    void update_nodes();
-    std::optional<PickPoint> pick_point(const Vec2& pointer) const;
-    float visible_surface(const PickPoint& point) const;
+    void update_pictures();
+    PictureSource picture_source(Side side) const;
+    bool have_converged() const;
+    bool shows_two_heats() const {
+        return state.compares() && is_heat(state.shading) && state.traced != TracedView::Off;
+    }
+    std::optional<CompareWork::RaceKey> wanted_race() const;
+    float visible_surface(const SideWork& work, const PickPoint& point) const;
+    void point_in(PanelInput& input, const Vec2& pointer) const;
     void pick_node(const Vec2& pointer);
     void pick_ray(const Vec2& pointer);
     void focus_selection();
+    void swap_sides();
     void request_build();
     void update_trace();
     void show_state(const ViewerState& next);
@@ -115,27 +141,18 @@ private:
     double build_wait_ms_ = 0.0;
     std::shared_ptr<const Scene> scene_;
     Box scene_bounds_;
-    std::shared_ptr<const Built> built_;
-    std::shared_ptr<const BoxValues> values_;
-    std::shared_ptr<const TreeStats> tree_;
-    uint64_t shared_count_ = 0;
 
     NodesKey nodes_of_;
-    std::shared_ptr<const Built> nodes_built_;  ///< that visibility_ and facts_ are of
-    std::vector<uint32_t> hidden_shown_;
-    uint32_t isolated_shown_ = kNoIndex;
-    std::shared_ptr<const Visibility> visibility_;
-    std::optional<NodeFacts> facts_;
     std::optional<Vec2> picked_at_;               ///< pointer of the last click that selected a node
     size_t picked_place_ = 0, picked_count_ = 0;  ///< the selected one among the nodes there
-    RayWork rays_;
 
-    std::unique_ptr<ProgressiveTracer> tracer_;  ///< made when the first traced view is asked for
-    std::optional<TraceSettings> tracing_;       ///< what the tracer was started with
-    std::shared_ptr<const Built> traced_built_;
-    bool trace_paused_ = false;  ///< it stopped in favour of a build
-    Image traced_image_;
-    uint64_t traced_version_ = 0;
+    /// By side; what is found out for B goes where B goes.
+    std::array<std::unique_ptr<SideWork>, 2> works_{std::make_unique<SideWork>(),
+                                                    std::make_unique<SideWork>()};
+    CompareWork compare_;
+    std::array<PictureSource, 2> picture_sources_;
+    std::array<uint64_t, 2> picture_versions_{};
+    uint64_t picture_count_ = 0;
 
     Undo undo_;
     std::string message_;

@@ -51,73 +51,84 @@ void Viewer::reload() {
 }
 
 void Viewer::focus(const Vec2& pointer) {
-    const FrameLayout layout = make_layout(state);
-    const ViewRect& view = layout.scene.contains(pointer) ? layout.scene : layout.traced;
-    if (!built_ || !view.contains(pointer)) return;
-    const auto pointed = point_at(*built_, *values_, state, pointer_ray(camera(), pointer, view));
+    const std::optional<PictureHit> picture = picture_at(make_layout(state), pointer);
+    if (!picture || !work(picture->side).built()) return;
+    const SideWork& of = work(picture->side);
+    const auto pointed =
+        point_at(*of.built(), *of.values(), state, pointer_ray(camera(), pointer, picture->rect));
     if (pointed) state.camera = focus_on(camera(), pointed->point, scene_bounds_);
 }
 
-std::optional<PickPoint> Viewer::pick_point(const Vec2& pointer) const {
-    const FrameLayout layout = make_layout(state);
-    const ViewRect& view = layout.scene.contains(pointer) ? layout.scene : layout.traced;
-    if (!built_ || !view.contains(pointer)) return std::nullopt;
-    return PickPoint{pointer, view, camera(), std::numeric_limits<float>::infinity()};
-}
-
-float Viewer::visible_surface(const PickPoint& point) const {
+float Viewer::visible_surface(const SideWork& of, const PickPoint& point) const {
     if (!state.show_mesh) return point.surface_t;
     Ray ray = pointer_ray(point.camera, point.pointer, point.view);
     constexpr int kMostHidden = 1000;  // triangles passed through
+    const Visibility& visibility = *of.visibility();
     for (int i = 0; i < kMostHidden; ++i) {
         Hit hit;
-        built_->structure.closest_hits(scene_->mesh, std::span(&ray, 1), std::span(&hit, 1), state.mode,
-                                       Task{});
-        if (!hit.is_hit() || visibility_->is_whole() || visibility_->triangles[hit.prim] != 0) return hit.t;
+        of.built()->structure.closest_hits(scene_->mesh, std::span(&ray, 1), std::span(&hit, 1), state.mode,
+                                           Task{});
+        if (!hit.is_hit() || visibility.is_whole() || visibility.triangles[hit.prim] != 0) return hit.t;
         ray.t_min = std::nextafter(hit.t, std::numeric_limits<float>::infinity());
     }
     return point.surface_t;
 }
 
 void Viewer::pick_node(const Vec2& pointer) {
-    std::optional<PickPoint> point = pick_point(pointer);
-    if (!point) return;
-    point->surface_t = visible_surface(*point);
+    const std::optional<PictureHit> picture = picture_at(make_layout(state), pointer);
+    if (!picture || !work(picture->side).built()) return;
+    const SideWork& of = work(picture->side);
+    if (!of.visibility()) return;
+    PickPoint point{pointer, picture->rect, camera(), std::numeric_limits<float>::infinity()};
+    point.surface_t = visible_surface(of, point);
     const std::vector<uint32_t> candidates =
-        pick_nodes(state, *built_->levels, *visibility_, rays_.cast().visits.get(), *point);
+        pick_nodes(state, *of.built()->levels, *of.visibility(), of.rays.cast().visits.get(), point);
     constexpr float kSamePlace = 3.0f;  // pixels
-    const bool is_again = picked_at_ && glm::distance(*picked_at_, pointer) <= kSamePlace;
-    state.node = next_candidate(candidates, is_again ? state.node : kNoIndex);
+    const bool is_again = picked_at_ && state.active_side() == picture->side &&
+                          glm::distance(*picked_at_, pointer) <= kSamePlace;
+    if (state.compares()) state.active = picture->side;
+    SideState& side = state.side();
+    side.node = next_candidate(candidates, is_again ? side.node : kNoIndex);
     state.prim = kNoIndex;
     if (!is_again) picked_at_ = pointer;
     picked_count_ = candidates.size();
-    picked_place_ = static_cast<size_t>(std::ranges::find(candidates, state.node) - candidates.begin());
-    if (state.node == kNoIndex) {
+    picked_place_ = static_cast<size_t>(std::ranges::find(candidates, side.node) - candidates.begin());
+    if (side.node == kNoIndex) {
         picked_at_.reset();
     } else {
-        state.side = SidePanel::Node;
+        state.side_panel = SidePanel::Node;
     }
 }
 
 void Viewer::pick_ray(const Vec2& pointer) {
-    const std::optional<PickPoint> point = pick_point(pointer);
-    if (!point) return;
-    const Ray ray = pointer_ray(point->camera, point->pointer, point->view);
+    const std::optional<PictureHit> picture = picture_at(make_layout(state), pointer);
+    if (!picture || !work(picture->side).built()) return;
+    const Ray ray = pointer_ray(camera(), pointer, picture->rect);
     state.ray = PickedRay{ray.origin, ray.direction};
     state.box_color = BoxColor::Visits;
     state.visit_rays = VisitRays::Picked;
 }
 
 void Viewer::focus_selection() {
-    if (!built_) return;
-    const NodeList& list = built_->levels->list;
+    if (!built()) return;
+    const NodeList& list = built()->levels->list;
     Box box;
     if (state.prim < scene_->mesh.triangle_count()) {
         box = scene_->mesh.triangle(state.prim).bounds();
-    } else if (state.node < list.nodes.size()) {
-        box = list.nodes[state.node].bounds;
+    } else if (state.side().node < list.nodes.size()) {
+        box = list.nodes[state.side().node].bounds;
     }
     if (!box.is_empty()) state.camera = whole_view(camera(), box, up_vector(state.up_axis));
+}
+
+void Viewer::swap_sides() {
+    if (!state.compares()) return;
+    std::swap(state.sides[0], state.sides[1]);
+    state.active = other_side(state.active);
+    std::swap(nodes_of_.recipes[0], nodes_of_.recipes[1]);
+    std::swap(works_[0], works_[1]);
+    if (shown_) std::swap(shown_->recipes[0], shown_->recipes[1]);
+    picked_at_.reset();
 }
 
 void Viewer::apply(const std::vector<Action>& actions) {
@@ -176,8 +187,10 @@ void Viewer::apply_one(const Action& action) {
         pick_node(pick->pointer);
     } else if (const auto* ray = std::get_if<PickRay>(&action)) {
         pick_ray(ray->pointer);
+    } else if (std::holds_alternative<SwapSides>(action)) {
+        swap_sides();
     } else if (std::holds_alternative<CancelCheck>(action)) {
-        rays_.cancel_check(state);
+        for (const std::unique_ptr<SideWork>& of : works_) of->rays.cancel_check(state);
     } else if (const auto* store = std::get_if<StoreView>(&action)) {
         state.stored_views[static_cast<size_t>(store->slot)] = camera();
         say("stored view " + std::to_string(store->slot + 1), false);

@@ -1,49 +1,77 @@
 #include "core/measure/tree_stats.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/measure/children.h"
+#include "core/measure/covered_share.h"
 
 namespace boxwood {
 
 namespace {
 
-/// Children of each node: child[begin[n] .. begin[n + 1]).
-struct Children {
-    std::vector<uint32_t> begin, child;
+/// What the nodes of one level do to their parents.
+struct Siblings {
+    double common = 0.0;   ///< area of common boxes
+    double empty = 0.0;    ///< area of the parents, each times its empty share
+    double parents = 0.0;  ///< area of the parents
 };
 
-Children list_children(const std::vector<NodeView>& nodes) {
-    Children children;
-    children.begin.assign(nodes.size() + 1, 0);
-    for (const NodeView& node : nodes)
-        if (node.parent != kNoIndex) ++children.begin[node.parent + 1];
-    for (size_t i = 1; i < children.begin.size(); ++i) children.begin[i] += children.begin[i - 1];
-    children.child.resize(children.begin.back());
-    std::vector<uint32_t> next(children.begin.begin(), children.begin.end() - 1);
-    for (uint32_t i = 0; i < nodes.size(); ++i)
-        if (nodes[i].parent != kNoIndex) children.child[next[nodes[i].parent]++] = i;
-    return children;
+/// Of the parent's box; 0 where only rounding says otherwise.
+double empty_share(const Box& parent, std::span<const Box> children) {
+    constexpr double kRounding = 1e-12;
+    const double share = 1.0 - covered_share(parent, children);
+    return share > kRounding ? share : 0.0;
 }
 
-/// Fills in sibling_overlap of every level.
-void measure_overlap(const std::vector<NodeView>& nodes, TreeStats& stats) {
+/// Fills in overlap and empty volume of every level and of the whole tree.
+void measure_siblings(const std::vector<NodeView>& nodes, TreeStats& stats) {
     const Children children = list_children(nodes);
-    std::vector<double> common(stats.levels.size(), 0.0), parents(stats.levels.size(), 0.0);
+    std::vector<Siblings> levels(stats.levels.size());
+    std::vector<Box> boxes;
     for (size_t i = 0; i < nodes.size(); ++i) {
-        const uint32_t begin = children.begin[i], end = children.begin[i + 1];
-        if (begin == end) continue;
-        if (end - begin > TreeStats::kMostSiblings) {
+        const std::span<const uint32_t> siblings = children.of(i);
+        if (siblings.empty()) continue;
+        if (siblings.size() > TreeStats::kMostSiblings) {
             ++stats.crowded_parents;
             continue;
         }
-        const size_t level = size_t{nodes[i].level} + 1;
-        parents[level] += nodes[i].bounds.half_area();
-        for (uint32_t a = begin; a < end; ++a)
-            for (uint32_t b = a + 1; b < end; ++b)
-                common[level] +=
-                    overlap_half_area(nodes[children.child[a]].bounds, nodes[children.child[b]].bounds);
+        boxes.clear();
+        for (const uint32_t node : siblings) boxes.push_back(nodes[node].bounds);
+        Siblings& level = levels[size_t{nodes[i].level} + 1];
+        const double area = nodes[i].bounds.half_area();
+        level.parents += area;
+        level.empty += area * empty_share(nodes[i].bounds, boxes);
+        for (size_t a = 0; a < boxes.size(); ++a)
+            for (size_t b = a + 1; b < boxes.size(); ++b)
+                level.common += overlap_half_area(boxes[a], boxes[b]);
     }
-    for (size_t l = 0; l < stats.levels.size(); ++l)
-        if (parents[l] > 0.0) stats.levels[l].sibling_overlap = common[l] / parents[l];
+    Siblings all;
+    for (size_t l = 0; l < levels.size(); ++l) {
+        all.common += levels[l].common;
+        all.empty += levels[l].empty;
+        all.parents += levels[l].parents;
+        if (!(levels[l].parents > 0.0)) continue;
+        stats.levels[l].sibling_overlap = levels[l].common / levels[l].parents;
+        stats.levels[l].empty_volume = levels[l].empty / levels[l].parents;
+    }
+    const double root_area = nodes[0].bounds.half_area();
+    if (root_area > 0.0) stats.sibling_overlap = all.common / root_area;
+    if (all.parents > 0.0) stats.empty_volume = all.empty / all.parents;
+}
+
+void measure_leaf_sizes(const std::vector<NodeView>& nodes, TreeStats& stats) {
+    const uint64_t filled = stats.leaves - stats.empty_leaves;
+    if (filled == 0) return;
+    stats.mean_leaf_size = static_cast<double>(stats.references) / static_cast<double>(filled);
+    double squares = 0.0;
+    for (const NodeView& node : nodes) {
+        if (node.kind != NodeKind::Leaf || node.ref_count == 0) continue;
+        const double difference = static_cast<double>(node.ref_count) - stats.mean_leaf_size;
+        squares += difference * difference;
+    }
+    stats.leaf_size_variation = std::sqrt(squares / static_cast<double>(filled)) / stats.mean_leaf_size;
 }
 
 }  // namespace
@@ -90,7 +118,8 @@ TreeStats tree_stats(const LevelTable& table, double traversal_cost, double inte
         stats.references += level.references;
         stats.sah_cost += level.sah_cost;
     }
-    measure_overlap(nodes, stats);
+    measure_siblings(nodes, stats);
+    measure_leaf_sizes(nodes, stats);
     return stats;
 }
 

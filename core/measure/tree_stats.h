@@ -24,6 +24,11 @@ struct LevelStats {
     /// of the common box. Differs: relative to the parent, not to the root. Volumes that are no boxes count
     /// as their boxes here.
     double sibling_overlap = 0.0;
+    /// The share of their parents' boxes that the nodes of this level leave empty, as the mean over the
+    /// parents weighted by area: a ray that meets a parent can pass there without a child. Of volume; of area
+    /// where a box is flat in one axis, of length where in two (see covered_share). 0 at level 0. Volumes
+    /// that are no boxes count as their boxes here.
+    double empty_volume = 0.0;
 };
 
 /// What a built structure is made of, and what it is expected to cost.
@@ -39,7 +44,15 @@ struct TreeStats {
     std::vector<LevelStats> levels;
     std::vector<uint64_t>
         leaf_sizes;  ///< leaf_sizes[n]: leaves with n primitives; the last one: that many or more
-    uint64_t crowded_parents = 0;  ///< parents of more than kMostSiblings nodes, absent from sibling_overlap
+    /// Parents of more than kMostSiblings nodes, absent from sibling_overlap and empty_volume.
+    uint64_t crowded_parents = 0;
+    /// The sum of the areas of all siblings' common boxes over the root's area: how many of them a random ray
+    /// that meets the root meets. 0 for a root without area.
+    double sibling_overlap = 0.0;
+    /// The mean of LevelStats::empty_volume over all inner nodes, weighted by area.
+    double empty_volume = 0.0;
+    double mean_leaf_size = 0.0;       ///< primitives of a leaf that has any; 0 where there is none
+    double leaf_size_variation = 0.0;  ///< standard deviation of those leaf sizes over their mean
 
     static constexpr size_t kMostLeafSize = 64;  ///< last index of leaf_sizes at most
     static constexpr size_t kMostSiblings = 64;

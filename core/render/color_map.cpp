@@ -33,6 +33,18 @@ constexpr Rgb kCividis[] = {
 constexpr Rgb kBatlow[] = {{1, 25, 89},    {17, 67, 96},    {34, 96, 97},    {77, 115, 77},  {130, 130, 49},
                            {192, 144, 54}, {241, 157, 107}, {253, 180, 180}, {250, 204, 250}};
 
+/// From the middle outwards. The light one: Harrower and Brewer, "ColorBrewer.org: An Online Tool for
+/// Selecting Colour Schemes for Maps", The Cartographic Journal 2003: the blue of RdBu, the orange of PuOr.
+/// The dark one has the same hues, and as many steps of brightness on both sides.
+constexpr Rgb kLightBlue[] = {{247, 247, 247}, {209, 229, 240}, {146, 197, 222},
+                              {67, 147, 195},  {33, 102, 172},  {5, 48, 97}};
+constexpr Rgb kLightOrange[] = {{247, 247, 247}, {254, 224, 182}, {253, 184, 99},
+                                {224, 130, 20},  {179, 88, 6},    {127, 59, 8}};
+constexpr Rgb kDarkBlue[] = {{34, 35, 38},   {26, 62, 102},   {36, 97, 164},
+                             {66, 141, 214}, {132, 190, 245}, {214, 236, 255}};
+constexpr Rgb kDarkOrange[] = {{34, 35, 38},   {92, 52, 18},   {150, 82, 14},
+                               {208, 122, 24}, {246, 178, 86}, {255, 234, 196}};
+
 /// Okabe and Ito's colours, the grey in place of black, in an order in which neighbours differ in hue and
 /// brightness.
 constexpr Rgb kPalette[] = {{86, 180, 233}, {230, 159, 0}, {0, 158, 115},   {204, 121, 167},
@@ -54,16 +66,23 @@ std::span<const Rgb> table_of(ColorMap map) {
     return kViridis;
 }
 
-}  // namespace
-
-Vec3 map_srgb(ColorMap map, float x) {
-    const std::span<const Rgb> table = table_of(map);
+/// Between the table's colours; x as for map_srgb.
+Vec3 interpolated(std::span<const Rgb> table, float x) {
     if (!(x > 0.0f)) return components(table.front());
     if (x >= 1.0f) return components(table.back());
     const float position = x * static_cast<float>(table.size() - 1);
     const size_t i = std::min(static_cast<size_t>(position), table.size() - 2);
     const float f = position - static_cast<float>(i);
     return components(table[i]) * (1.0f - f) + components(table[i + 1]) * f;
+}
+
+}  // namespace
+
+Vec3 map_srgb(ColorMap map, float x) { return interpolated(table_of(map), x); }
+
+Vec3 diverging_srgb(float x, bool dark_middle) {
+    const std::span<const Rgb> above = dark_middle ? kDarkOrange : kLightOrange;
+    return x < 0.0f ? interpolated(dark_middle ? kDarkBlue : kLightBlue, -x) : interpolated(above, x);
 }
 
 Vec3 map_linear(ColorMap map, float x) { return linear_from_srgb(map_srgb(map, x)); }

@@ -19,6 +19,11 @@ Vec3 map_srgb(ColorMap map, float x);
 /// The same as linear RGB.
 Vec3 map_linear(ColorMap map, float x);
 
+/// Colour of a signed value at x in [-1, 1], as sRGB components: blue below 0, orange above, colours that
+/// colour-blind eyes tell apart, the farther from 0 the further from the middle's grey. The middle is dark or
+/// light. x is clamped; NaN counts as 0.
+Vec3 diverging_srgb(float x, bool dark_middle);
+
 /// Colour of level or object i, as sRGB components: neighbours differ clearly, also for colour-blind eyes.
 /// Okabe, Ito, "Color Universal Design", 2008; after eight colours they come again, lighter, then darker.
 Vec3 palette_srgb(uint32_t i);

@@ -8,12 +8,11 @@ namespace boxwood {
 
 namespace {
 
-/// The colour map ends here; the costliest pixels beyond it share the last colour.
-constexpr double kUpperShare = 0.995;
 /// A logarithmic scale begins here.
 constexpr double kLowerShare = 0.005;
 
-/// The value that `share` of all values are not above. Reorders them.
+}  // namespace
+
 double percentile(std::vector<double>& values, double share) {
     const size_t last = values.size() - 1;
     const size_t rank = static_cast<size_t>(share * static_cast<double>(last));
@@ -21,8 +20,6 @@ double percentile(std::vector<double>& values, double share) {
     std::nth_element(values.begin(), place, values.end());
     return *place;
 }
-
-}  // namespace
 
 void Film::resize(const TraceSettings& settings) {
     width = settings.width;
@@ -51,8 +48,21 @@ void Film::add(const PixelBatch& batch, uint32_t sample) {
 }
 
 double heat_value(const Film& film, Shading shading, size_t pixel, uint32_t samples) {
-    const Count& count = film.counts[pixel];
-    return static_cast<double>(shading == Shading::Heat ? count.nodes : count.tests) / samples;
+    return static_cast<double>(heat_count(film.counts[pixel], shading)) / samples;
+}
+
+HeatScale heat_scale_of(std::vector<double>& values, bool logarithmic, double heat_max) {
+    HeatScale heat;
+    heat.largest = *std::max_element(values.begin(), values.end());
+    heat.scale.logarithmic = logarithmic;
+    heat.scale.lower = logarithmic ? 1.0 : 0.0;
+    heat.scale.upper = heat_max;
+    if (heat_max <= 0.0) {
+        heat.scale.upper = std::max(percentile(values, kUpperHeatShare), heat.scale.lower + 1.0);
+        if (logarithmic)
+            heat.scale.lower = std::clamp(percentile(values, kLowerShare), 1.0, heat.scale.upper * 0.5);
+    }
+    return heat;
 }
 
 HeatScale make_heat_scale(const Film& film, const TraceSettings& settings, int step, uint32_t samples) {
@@ -64,17 +74,7 @@ HeatScale make_heat_scale(const Film& film, const TraceSettings& settings, int s
             values.push_back(heat_value(film, settings.shading, pixel, samples));
         }
     }
-    HeatScale heat;
-    heat.largest = *std::max_element(values.begin(), values.end());
-    heat.scale.logarithmic = settings.log_heat;
-    heat.scale.lower = settings.log_heat ? 1.0 : 0.0;
-    heat.scale.upper = settings.heat_max;
-    if (settings.heat_max <= 0.0) {
-        heat.scale.upper = std::max(percentile(values, kUpperShare), heat.scale.lower + 1.0);
-        if (settings.log_heat)
-            heat.scale.lower = std::clamp(percentile(values, kLowerShare), 1.0, heat.scale.upper * 0.5);
-    }
-    return heat;
+    return heat_scale_of(values, settings.log_heat, settings.heat_max);
 }
 
 void resolve_pixel(const Film& film, const TraceSettings& settings, const ValueScale& scale, size_t pixel,
@@ -84,11 +84,7 @@ void resolve_pixel(const Film& film, const TraceSettings& settings, const ValueS
         return;
     }
     const double value = heat_value(film, settings.shading, pixel, samples);
-    const Vec3 srgb = map_srgb(settings.color_map, scale.position(value)) * 255.0f + 0.5f;
-    rgba[0] = static_cast<uint8_t>(srgb.x);
-    rgba[1] = static_cast<uint8_t>(srgb.y);
-    rgba[2] = static_cast<uint8_t>(srgb.z);
-    rgba[3] = 255;
+    store_srgb(map_srgb(settings.color_map, scale.position(value)), rgba);
 }
 
 bool resolve_image(const Film& film, const TraceSettings& settings, const ValueScale& scale, int step,

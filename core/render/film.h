@@ -26,6 +26,15 @@ struct Film {
 /// Of one pixel the value that a heat shading shows: mean count over `samples` samples.
 double heat_value(const Film& film, Shading shading, size_t pixel, uint32_t samples);
 
+/// The scale of a picture with these values, of which there is one at least; reorders them.
+HeatScale heat_scale_of(std::vector<double>& values, bool logarithmic, double heat_max);
+
+/// The value that `share` of all values are not above. Reorders them; there is one at least.
+double percentile(std::vector<double>& values, double share);
+
+/// The map ends at this percentile; the costliest pixels beyond it share the last colour.
+inline constexpr double kUpperHeatShare = 0.995;
+
 /// The scale for the pixels whose row and column are multiples of `step`, each with `samples` samples.
 HeatScale make_heat_scale(const Film& film, const TraceSettings& settings, int step, uint32_t samples);
 

@@ -84,6 +84,14 @@ Vec3 srgb_from_linear(const Vec3& linear) {
            255.0f;
 }
 
+void store_srgb(const Vec3& srgb, uint8_t* rgba) {
+    const Vec3 bytes = srgb * 255.0f + 0.5f;
+    rgba[0] = static_cast<uint8_t>(bytes.x);
+    rgba[1] = static_cast<uint8_t>(bytes.y);
+    rgba[2] = static_cast<uint8_t>(bytes.z);
+    rgba[3] = 255;
+}
+
 void store_linear(const Vec3& linear, uint8_t* rgba) {
     rgba[0] = srgb_byte(linear.x);
     rgba[1] = srgb_byte(linear.y);

@@ -42,6 +42,9 @@ Vec3 linear_from_srgb(const Vec3& srgb);
 /// sRGB components in [0, 1] (to the nearest byte) of linear RGB.
 Vec3 srgb_from_linear(const Vec3& linear);
 
+/// Writes an opaque pixel from sRGB components in [0, 1].
+void store_srgb(const Vec3& srgb, uint8_t* rgba);
+
 /// Writes an opaque pixel from linear RGB.
 void store_linear(const Vec3& linear, uint8_t* rgba);
 

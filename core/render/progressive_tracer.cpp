@@ -251,6 +251,20 @@ bool ProgressiveTracer::snapshot(Image& image, uint64_t& version) const {
     return true;
 }
 
+int ProgressiveTracer::snapshot_counts(std::vector<Count>& counts) const {
+    const std::scoped_lock lock(impl_->mutex);
+    const int step = impl_->state.step;
+    const Film& film = impl_->film;
+    if (step == 0 || film.first_counts.empty()) return 0;
+    counts.resize(film.first_counts.size());
+    // Other pixels may be written by the workers at this moment.
+    const size_t width = static_cast<size_t>(film.width), height = static_cast<size_t>(film.height);
+    const size_t stride = static_cast<size_t>(step);
+    for (size_t y = 0; y < height; y += stride)
+        for (size_t x = 0; x < width; x += stride) counts[y * width + x] = film.first_counts[y * width + x];
+    return step;
+}
+
 TraceState ProgressiveTracer::state() const {
     const std::scoped_lock lock(impl_->mutex);
     TraceState state = impl_->state;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/render/trace_image.h"
 
@@ -54,6 +55,11 @@ public:
     /// Copies the latest picture if it is newer than `version`, and sets `version` to its number. False, with
     /// nothing touched, if there is nothing newer. Numbers rise through restarts; begin with 0.
     bool snapshot(Image& image, uint64_t& version) const;
+
+    /// Copies of a heat picture the counts of the rays through the pixel centres, of the pixels whose row and
+    /// column are multiples of the state's `step`, at y * width + x; what stands between is not defined.
+    /// Returns that step; 0, with nothing touched, if there is no picture or it is no heat.
+    int snapshot_counts(std::vector<Count>& counts) const;
 
     TraceState state() const;
 

@@ -22,16 +22,22 @@ enum class Shading : uint8_t {
     Ao,         ///< share of the hemisphere that is open within a radius
     Heat,       ///< nodes that the primary ray visits
     HeatTests,  ///< primitives that the primary ray tests
+    HeatExact,  ///< decisions of the primary ray that were left to exact arithmetic
 };
 
 /// By value of Shading.
-inline constexpr std::array<const char*, 5> kShadingNames = {"primary", "normals", "ao", "heat",
-                                                             "heat-tests"};
+inline constexpr std::array<const char*, 6> kShadingNames = {"primary", "normals",    "ao",
+                                                             "heat",    "heat-tests", "heat-exact"};
 
 std::optional<Shading> find_shading(const std::string& name);
 
 /// Whether pixels are counts under a colour map.
-inline bool is_heat(Shading shading) { return shading == Shading::Heat || shading == Shading::HeatTests; }
+inline bool is_heat(Shading shading) { return shading >= Shading::Heat; }
+
+/// What a heat shading shows of a ray's counts.
+inline uint64_t heat_count(const Count& count, Shading shading) {
+    return shading == Shading::Heat ? count.nodes : shading == Shading::HeatTests ? count.tests : count.exact;
+}
 
 /// All that decides what a traced picture looks like.
 struct TraceSettings {
