@@ -19,8 +19,9 @@ std::string stage_tip(const CatalogEntry& entry) {
     return text;
 }
 
-/// Where a stage's panel begins: its name folds and unfolds the parameters. True if they are shown.
-bool stage_head(const Context& context, const char* label) {
+/// Where a stage's panel begins: its name folds and unfolds the parameters. True if they are shown. `column`:
+/// where what follows stands, in pixels at scale 1.
+bool stage_head(const Context& context, const char* label, float column = 104.0f) {
     std::set<uint32_t>& folded = context.memory.folded_stages;
     const uint32_t id = ImGui::GetID(label);
     const bool is_open = !folded.contains(id);
@@ -34,7 +35,7 @@ bool stage_head(const Context& context, const char* label) {
         }
     }
     tooltip(context, is_open ? "Click: folds this stage's parameters away." : "Click: shows its parameters.");
-    ImGui::SameLine(104.0f * context.scale);
+    ImGui::SameLine(column * context.scale);
     return is_open;
 }
 
@@ -77,7 +78,7 @@ bool move_button(const Context& context, const char* sign, bool fits, const std:
 /// One transform; nothing if it stays as it is.
 std::optional<Recipe> transform_row(const Context& context, Recipe& recipe, size_t i, bool& changed) {
     Stage& stage = recipe.transforms[i];
-    const bool is_open = stage_head(context, "then");
+    const bool is_open = stage_head(context, "then", 64.0f);
     std::vector<const CatalogEntry*> rows;
     for (const CatalogEntry& entry : transform_catalog())
         if (fits_after(recipe, i, entry)) rows.push_back(&entry);

@@ -66,7 +66,7 @@ std::vector<Action> edit(ViewerState& state, const PanelInput& input, const Fram
         left_panel(context);
         right_panel(context);
         panel::status_line(context);
-        panel::legends(context);
+        if (!state.show_keys) panel::legends(context);
     }
     panel::side_labels(context);
     panel::wrong_marks(context);
