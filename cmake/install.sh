@@ -4,7 +4,7 @@ packages_for() {
     case $1 in
     build)
         echo "ca-certificates ccache cmake fonts-dejavu-core g++ git libassimp-dev libcli11-dev libglfw3-dev libglm-dev
-              libgmp-dev libimgui-dev libosmesa6-dev libpng-dev libtbb-dev libtinygltf-dev libtinyobjloader-dev
+              libgmp-dev libhwy-dev libimgui-dev libosmesa6-dev libpng-dev libtbb-dev libtinygltf-dev libtinyobjloader-dev
               ninja-build nlohmann-json3-dev pkg-config python3-glad libgl1-mesa-dri"
         ;;
     test)
