@@ -313,6 +313,16 @@ TEST_F(Program, BenchTreesEndsWith1WhereAPromiseDoesNotHold) {
     expect_refusal(scene + "'sah: none <= none'", 2, "did you mean sah_cost?");
 }
 
+TEST_F(Program, BenchCollapseSaysWhatLeastCostGainsOverGreedy) {
+    const Ended result = run("bench collapse -s cornell -r bvh-spatial-median --builds 1 --json -");
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    const Json rows = Json::parse(result.output)["rows"];
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[1]["recipe"], "bvh-spatial-median > wide8");
+    for (const Json& row : rows) EXPECT_LE(row["optimal_cost"], row["greedy_cost"]);
+    expect_refusal("bench collapse -s cornell -r kd-sah", 2, "wide4 needs a binary BVH");
+}
+
 TEST_F(Program, BenchRefitNeedsAnAnimatedSceneAndWhatCanBeRefitted) {
     const Ended result =
         run(std::string("bench refit -r bvh-spatial-median --every 100 --from 20") + kQuickly);

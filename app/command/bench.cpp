@@ -12,6 +12,7 @@ namespace {
 constexpr Command kSuites[] = {
     {"amortize", "from how many rays on a better structure pays for its build", run_bench_amortize},
     {"builds", "what builds take, in turns with those of Embree", run_bench_builds},
+    {"collapse", "binary hierarchies into wide ones: least cost against greedy", run_bench_collapse},
     {"error", "run time against error: both modes and plain double precision", run_bench_error},
     {"interact", "how quickly the program answers", run_bench_interact},
     {"lecture", "the lecture's comparison of structures: memory, build, rays", run_bench_lecture},

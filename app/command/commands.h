@@ -27,6 +27,7 @@ ExitCode run_program(Arguments arguments);
 ExitCode run_bench(Arguments arguments);
 ExitCode run_bench_amortize(Arguments arguments);
 ExitCode run_bench_builds(Arguments arguments);
+ExitCode run_bench_collapse(Arguments arguments);
 ExitCode run_bench_error(Arguments arguments);
 ExitCode run_bench_interact(Arguments arguments);
 ExitCode run_bench_lecture(Arguments arguments);
