@@ -28,9 +28,7 @@ struct SpatialSplits {
     float budget = 2.0f;    ///< references at most, for each one given, 1 to 16
     int bin_count = 16;     ///< of a spatial split, per axis, 4 to 64
 
-    static constexpr uint32_t kSweepCount = 1024;  ///< references of a node that is swept, at most
-    static inline double kLam = getenv("LAM") ? atof(getenv("LAM")) : 0.0;
-    static inline int kDiv = getenv("DIV") ? atoi(getenv("DIV")) : 0;
+    static constexpr uint32_t kSweepCount = 1024;
 
     void describe(ParamVisitor& v) {
         v.on_int("max-leaf-size", max_leaf_size, 1, 64, "a larger set is always split");

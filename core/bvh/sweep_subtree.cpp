@@ -206,10 +206,7 @@ SweepSubtree::Children SweepSubtree::divide_objects(const Set& set, const Object
 
 /// Nothing where no plane is cheaper than the object split, or the budget does not do.
 std::optional<SweepSubtree::Children> SweepSubtree::divide_space(const Set& set, double object_cost) {
-    SpatialBins bins(
-        set.box, SpatialSplits::kDiv
-                     ? std::clamp(static_cast<int>(4 + set.count) / SpatialSplits::kDiv, 4, params_.bin_count)
-                     : params_.bin_count);
+    SpatialBins bins(set.box, bins_for(params_, set.count));
     for (uint32_t i = 0; i < set.count; ++i) bins.add(refs_[order_[set.first + i]], mesh_);
     const SpatialSplit split = bins.cheapest_split();
     if (split.axis < 0 || !(split.cost < object_cost)) return std::nullopt;

@@ -22,7 +22,7 @@ uint64_t left_budget(uint64_t most_refs, uint32_t left_count, const Box4& left, 
 
 /// Slabs per axis for a node of so many references: a small one needs few. Wald 2007, section 3.5.1.
 inline int bins_for(const SpatialSplits& params, uint32_t count) {
-    return static_cast<int>(std::min(static_cast<uint32_t>(params.bin_count), 4 + count));
+    return static_cast<int>(std::min(static_cast<uint32_t>(params.bin_count), 4 + count / 4));
 }
 
 /// Builds the part of a tree below a node of few references: every object split between two centres is
