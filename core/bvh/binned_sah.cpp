@@ -169,6 +169,7 @@ private:
         const std::span<const BinRef> refs = refs_of(range, array);
         if (refs.size() == 1) return kLeaf;
         if (must_halve(depth, range.count())) return fits_a_leaf(range.count()) ? kLeaf : halve(refs);
+        if (refs.size() == 2) return divide_pair(range, array, box);
         const Binning binning(half_centers_of(refs), bins_for(range.count()));
         bins.fill(refs, binning);
         const Division at = choose(bins, binning, refs, box);
@@ -189,17 +190,39 @@ private:
                     const Box4& box) const {
         const auto count = static_cast<uint32_t>(refs.size());
         const float scale = area_scale(box);
-        const BinSplit split = bins.cheapest_split(binning, count, scale);
-        if (fits_a_leaf(count)) {
-            const float area = half_area(scaled_extent(box, scale));
-            const float leaf_cost = static_cast<float>(kIntersectionCost) * static_cast<float>(count) * area;
-            const float split_cost =
-                params_.traversal_cost * area + static_cast<float>(kIntersectionCost) * split.cost;
-            if (leaf_cost <= split_cost) return kLeaf;
-        }
+        const BinSplit split = bins.cheapest_split(binning.bin_count, count, scale);
+        if (is_leaf_cheaper(count, box, scale, split.cost)) return kLeaf;
         if (split.axis < 0) return halve(refs);
-        return {split.left_count, split.axis, split.bin, bins.box_of(split.axis, 0, split.bin),
-                bins.box_of(split.axis, split.bin, binning.bin_count)};
+        return {bins.count_of(split.axis, split.bin), split.axis, split.bin,
+                bins.box_of(split.axis, 0, split.bin), bins.box_of(split.axis, split.bin, binning.bin_count)};
+    }
+
+    bool is_leaf_cheaper(uint32_t count, const Box4& box, float scale, float sides_cost) const {
+        if (!fits_a_leaf(count)) return false;
+        constexpr auto kTest = static_cast<float>(kIntersectionCost);
+        const float area = half_area(scaled_extent(box, scale));
+        return kTest * static_cast<float>(count) * area <= params_.traversal_cost * area + kTest * sides_cost;
+    }
+
+    /// What bins would give for two references: they part on the first axis on which their centres differ.
+    Division divide_pair(RefRange range, int array, const Box4& box) {
+        const std::span<const BinRef> refs = refs_of(range, array);
+        Box4 centers = half_centers_of(refs);
+        const Binning binning(centers, bins_for(2));
+        int axis = 0;
+        while (axis < 3 && binning.scale[axis] == 0.0f) ++axis;
+        const float scale = area_scale(box);
+        constexpr float kInfinity = std::numeric_limits<float>::infinity();
+        const float cost = axis == 3 ? kInfinity
+                                     : half_area(scaled_extent({refs[0].lower, refs[0].upper}, scale)) +
+                                           half_area(scaled_extent({refs[1].lower, refs[1].upper}, scale));
+        if (is_leaf_cheaper(2, box, scale, cost)) return kLeaf;
+        if (axis == 3) return halve(refs);
+        const size_t left = refs[0].half_center()[axis] <= refs[1].half_center()[axis] ? 0 : 1;
+        const std::span<BinRef> to = refs_of(range, 1 - array);
+        to[0] = refs[left];
+        to[1] = refs[1 - left];
+        return {1, axis, 1, {to[0].lower, to[0].upper}, {to[1].lower, to[1].upper}};
     }
 
     void build_part(TopNode& top, const State& state) {

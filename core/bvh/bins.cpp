@@ -29,9 +29,12 @@ struct Sweep {
         counts += count;
     }
     /// Count * half area; NaN where there is no box.
+    template <bool is_scaled>
     Float4 costs(float scale) const {
-        return to_float(counts) * half_areas(scaled_extent(boxes[0], scale), scaled_extent(boxes[1], scale),
-                                             scaled_extent(boxes[2], scale));
+        const auto extent = [&](const Box4& box) {
+            return is_scaled ? scaled_extent(box, scale) : box.upper - box.lower;
+        };
+        return to_float(counts) * half_areas(extent(boxes[0]), extent(boxes[1]), extent(boxes[2]));
     }
 };
 
@@ -72,25 +75,25 @@ void Bins::add(const Bins& other, int bin_count) {
     }
 }
 
-BinSplit Bins::cheapest_split(const Binning& binning, uint32_t count, float area_scale) const {
+template <bool is_scaled>
+BinSplit Bins::sweep(int bin_count, uint32_t count, float scale) const {
     Float4 right_costs[kMaxBins];
     Sweep right;
-    for (int i = binning.bin_count - 1; i > 0; --i) {
+    for (int i = bin_count - 1; i > 0; --i) {
         right.add(boxes[i], counts[i]);
-        right_costs[i] = right.costs(area_scale);
+        right_costs[i] = right.costs<is_scaled>(scale);
     }
     Sweep left;
     Float4 best_cost = splat(std::numeric_limits<float>::infinity());
-    Int4 best_bin{}, best_count{}, best_imbalance{};
+    Int4 best_bin{}, best_imbalance{};
     const auto all = static_cast<int32_t>(count);
-    for (int i = 1; i < binning.bin_count; ++i) {
+    for (int i = 1; i < bin_count; ++i) {
         left.add(boxes[i - 1], counts[i - 1]);
-        const Float4 cost = left.costs(area_scale) + right_costs[i];  // NaN where a side is empty
+        const Float4 cost = left.costs<is_scaled>(scale) + right_costs[i];  // NaN where a side is empty
         const Int4 imbalance = absolute(left.counts + left.counts - all);
         const Int4 is_better = (cost < best_cost) | ((cost == best_cost) & (imbalance < best_imbalance));
         best_cost = is_better ? cost : best_cost;
         best_bin = is_better ? Int4{i, i, i, i} : best_bin;
-        best_count = is_better ? left.counts : best_count;
         best_imbalance = is_better ? imbalance : best_imbalance;
     }
     BinSplit best;
@@ -99,11 +102,16 @@ BinSplit Bins::cheapest_split(const Binning& binning, uint32_t count, float area
         if (best_bin[axis] == 0) continue;
         if (best_cost[axis] < best.cost ||
             (best_cost[axis] == best.cost && best_imbalance[axis] < imbalance)) {
-            best = {best_cost[axis], axis, best_bin[axis], static_cast<uint32_t>(best_count[axis])};
+            best = {best_cost[axis], axis, best_bin[axis]};
             imbalance = best_imbalance[axis];
         }
     }
     return best;
+}
+
+BinSplit Bins::cheapest_split(int bin_count, uint32_t count, float area_scale) const {
+    return area_scale == 1.0f ? sweep<false>(bin_count, count, area_scale)
+                              : sweep<true>(bin_count, count, area_scale);
 }
 
 Box4 Bins::box_of(int axis, int begin, int end) const {
@@ -118,12 +126,18 @@ uint32_t Bins::count_of(int axis, int end) const {
     return static_cast<uint32_t>(count);
 }
 
-float area_scale(const Box4& box) {
+float unit_scale(const Box4& box) {
     const Float4 extent = scaled_extent(box, 0.5f);
     const float largest = std::max(extent[0], std::max(extent[1], extent[2]));
-    // The exponent alone, inverted: 2^(127 - e) for 2^(e - 127); of nothing and of subnormals: 2^126.
+    // The exponent alone, inverted: 2^(127 - e) for 2^(e - 127); of nothing and of subnormals 2^126.
     const uint32_t exponent = std::bit_cast<uint32_t>(largest) >> 23;
     return std::bit_cast<float>((254 - std::clamp(exponent, 1u, 252u)) << 23);
+}
+
+float area_scale(const Box4& box) {
+    constexpr float kLarge = 0x1p40f;
+    const float scale = unit_scale(box);
+    return scale > 1.0f / kLarge && scale < kLarge ? 1.0f : scale;
 }
 
 }  // namespace boxwood

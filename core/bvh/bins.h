@@ -36,7 +36,6 @@ struct BinSplit {
     float cost = std::numeric_limits<float>::infinity();  ///< lengths in units of area_scale
     int axis = -1;                                        ///< -1: there is no split
     int bin = 0;                                          ///< first bin of the right side
-    uint32_t left_count = 0;
 };
 
 /// Boxes and counts of the bins of the three axes; only what is used is initialised.
@@ -50,14 +49,22 @@ struct Bins {
     void add(const Bins& other, int bin_count);
     /// Cheapest plane between two bins; the more even one of equally cheap ones; then the first axis, the
     /// first plane. Lengths are multiplied by area_scale, a power of two.
-    BinSplit cheapest_split(const Binning& binning, uint32_t count, float area_scale) const;
+    BinSplit cheapest_split(int bin_count, uint32_t count, float area_scale) const;
     /// Box of the bins [begin, end) of an axis.
     Box4 box_of(int axis, int begin, int end) const;
+    /// References in the bins [0, end) of an axis.
     uint32_t count_of(int axis, int end) const;
+
+private:
+    template <bool is_scaled>
+    BinSplit sweep(int bin_count, uint32_t count, float scale) const;
 };
 
-/// A power of two that brings the largest extent of the box near 1, so that no area computed with it
-/// overflows or vanishes against the box's own.
+/// A power of two that brings the largest extent of the box near 1.
+float unit_scale(const Box4& box);
+
+/// A power of two that keeps areas of parts of the box, computed with lengths times it, from overflow, and
+/// from vanishing against the box's own: 1 for all but extreme boxes.
 float area_scale(const Box4& box);
 
 /// Extents times scale, without overflow.

@@ -145,7 +145,7 @@ private:
     Clusters first_clusters() const {
         Clusters clusters(refs_.size(), padding());
         clusters.resize(refs_.size());
-        const float scale = area_scale(box_of_all());
+        const float scale = unit_scale(box_of_all());
         parallel_for(refs_.size(), kGrain, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) {
                 const PrimRef& ref = refs_[order_.ref(i)];
