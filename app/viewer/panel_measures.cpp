@@ -204,6 +204,7 @@ void level_table_part(const Context& context) {
                                        ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH |
                                        ImGuiTableFlags_SizingStretchProp;
     ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {2.0f * context.scale, 2.0f * context.scale});
     if (ImGui::BeginTable("levels", static_cast<int>(kColumns.size()), kFlags, {0.0f, -1.0f})) {
         for (const ColumnText& column : kColumns) ImGui::TableSetupColumn(column.name);
         ImGui::TableSetupScrollFreeze(0, 1);
@@ -219,6 +220,7 @@ void level_table_part(const Context& context) {
         for (const size_t row : sorted_rows(context)) level_row(context, row, shown);
         ImGui::EndTable();
     }
+    ImGui::PopStyleVar();
     ImGui::PopFont();
 }
 
