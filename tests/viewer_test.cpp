@@ -75,6 +75,26 @@ TEST(ViewerFrame, TheLookDependsOnTheSessionAlone) {
     EXPECT_EQ(headless.capture(session), first);
 }
 
+TEST(ViewerFrame, ATracedPictureIsNeverThatOfTheSessionBefore) {
+    Session session = small_session();
+    session.state.show_panels = false;
+    for (const TracedView view : {TracedView::Beside, TracedView::Over}) {
+        session.state.traced = view;
+        const auto capture = [&](const std::vector<Shading>& shadings) {
+            Headless headless;
+            Image last;
+            for (const Shading shading : shadings) {
+                session.state.shading = shading;
+                last = headless.capture(session);
+            }
+            return last;
+        };
+        const Image normals = capture({Shading::Normals});
+        EXPECT_EQ(capture({Shading::Primary, Shading::Normals}), normals);
+        EXPECT_GT(different_pixels(capture({Shading::Primary}), normals), 1000u);
+    }
+}
+
 TEST(ViewerFrame, MovingTheLevelRangeUploadsNothing) {
     Headless headless;
     Viewer viewer(small_session());

@@ -32,6 +32,11 @@ void Frame::upload(const Viewer& viewer) {
         uploaded_scene_ = viewer.scene();
         uploaded_ = {};
         scene_renderer_.set_mesh(uploaded_scene_->mesh);
+        // Another viewer counts its pictures from the beginning again.
+        for (const Side side : kSides) {
+            scene_renderer_.clear_picture(index_of(side));
+            picture_renderers_[index_of(side)].clear();
+        }
     }
     if (!uploaded_scene_) return;
     for (const Side side : kSides) upload_side(viewer.work(side), index_of(side));

@@ -24,15 +24,17 @@ void left_panel(const panel::Context& context) {
     begin_fixed("left", context.layout.left);
     // What is saved and undone stays in sight where the rest has to scroll.
     const ViewRect& rect = context.layout.left;
-    const float rest = rect.height - panel::session_height(context) - ImGui::GetStyle().WindowPadding.y;
+    const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+    const float rest = std::max(rect.height - panel::session_height(context) - padding.y, 1.0f);
     ImGui::SetCursorPos({0.0f, 0.0f});
-    ImGui::BeginChild("settings", {rect.width, std::max(rest, 1.0f)}, /*border=*/false,
+    ImGui::BeginChild("settings", {rect.width, rest + padding.y}, /*border=*/false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding);
     panel::scene_part(context);
     panel::recipe_part(context);
     panel::view_part(context);
     panel::trace_part(context);
     ImGui::EndChild();
+    ImGui::SetCursorPos({padding.x, rest});  // the room under the settings is enough between both
     panel::session_part(context);
     ImGui::End();
 }
