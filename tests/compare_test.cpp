@@ -121,7 +121,7 @@ TEST(Compare, TheSameRecipeTwiceIsZeroEverywhere) {
         headless.frame().capture(viewer);
         ASSERT_TRUE(viewer.heat());
         const Image& picture = viewer.heat()->difference;
-        EXPECT_EQ(picture.width, 224);
+        EXPECT_EQ(picture.width, 180);
         EXPECT_EQ(viewer.heat()->known, picture.pixel_count());
         EXPECT_EQ(viewer.heat()->more_in_a + viewer.heat()->more_in_b, 0u);
         Image zero(1, 1);
@@ -133,7 +133,7 @@ TEST(Compare, TheSameRecipeTwiceIsZeroEverywhere) {
         const PanelInput input = viewer.panel_input(Vec2(-1.0f));
         const std::vector<MeasurePair> pairs =
             pairs_of(measures_of(viewer.state, input, Side::A), measures_of(viewer.state, input, Side::B));
-        EXPECT_EQ(pairs.size(), s.show_times ? 13u : 11u);
+        EXPECT_EQ(pairs.size(), s.show_times ? 18u : 16u);
         for (const MeasurePair& pair : pairs) EXPECT_EQ(pair.difference(), 0.0) << pair.a.key;
     }
 }
@@ -173,20 +173,20 @@ TEST_F(Comparing, TheDifferenceIsThatOfTheCountsOfBothStructures) {
 
 TEST_F(Comparing, TheBarIsDraggedAndTheDragIsOneStep) {
     const Camera camera = viewer_.camera();
-    mouse({638.0f, 300.0f}, false);
-    mouse({638.0f, 300.0f}, true);
-    for (float x = 640.0f; x <= 738.0f; x += 24.0f) mouse({x, 310.0f}, true);
+    mouse({616.0f, 300.0f}, false);
+    mouse({616.0f, 300.0f}, true);
+    for (float x = 618.0f; x <= 738.0f; x += 24.0f) mouse({x, 310.0f}, true);
     EXPECT_TRUE(headless_.frame().editing());
     mouse({738.0f, 310.0f}, true);
     mouse({738.0f, 310.0f}, false);
-    EXPECT_NEAR(state().wipe, 442.0f / 684.0f, 1e-4f);
+    EXPECT_NEAR(state().wipe, 442.0f / 640.0f, 1e-4f);
     EXPECT_EQ(viewer_.camera(), camera) << "the camera stays";
     EXPECT_EQ(state().side().node, kNoIndex) << "it is no click";
     mouse({900.0f, 310.0f}, false);
     viewer_.apply({UndoStep{}});
     EXPECT_EQ(state().wipe, 0.5f);
-    mouse({638.0f, 300.0f}, false);
-    mouse({638.0f, 300.0f}, true);
+    mouse({616.0f, 300.0f}, false);
+    mouse({616.0f, 300.0f}, true);
     mouse({1200.0f, 300.0f}, true);
     mouse({1200.0f, 300.0f}, false);
     EXPECT_EQ(state().wipe, 1.0f) << "it stays in the picture";
@@ -196,23 +196,23 @@ TEST(WipeBar, IsHitWithinItsReach) {
     ViewerState state = session_of("bvh-sweep-sah", "bvh-sweep-sah").state;
     FrameLayout layout = make_layout(state);
     ASSERT_TRUE(layout.bars[0]);
-    EXPECT_EQ(layout.bars[0]->x, 638.0f);
-    EXPECT_TRUE(bar_at(layout, {632.0f, 10.0f}, 1.0f));
-    EXPECT_TRUE(bar_at(layout, {644.0f, 690.0f}, 1.0f));
-    EXPECT_FALSE(bar_at(layout, {631.0f, 10.0f}, 1.0f));
-    EXPECT_TRUE(bar_at(layout, {627.0f, 10.0f}, 2.0f)) << "at twice the scale";
-    EXPECT_FALSE(bar_at(layout, {638.0f, 700.0f}, 1.0f)) << "the status line";
+    EXPECT_EQ(layout.bars[0]->x, 616.0f);
+    EXPECT_TRUE(bar_at(layout, {610.0f, 10.0f}, 1.0f));
+    EXPECT_TRUE(bar_at(layout, {622.0f, 690.0f}, 1.0f));
+    EXPECT_FALSE(bar_at(layout, {609.0f, 10.0f}, 1.0f));
+    EXPECT_TRUE(bar_at(layout, {605.0f, 10.0f}, 2.0f)) << "at twice the scale";
+    EXPECT_FALSE(bar_at(layout, {616.0f, 700.0f}, 1.0f)) << "the status line";
     EXPECT_EQ(wipe_at(*layout.bars[0], 296.0f), 0.0f);
-    EXPECT_EQ(wipe_at(*layout.bars[0], 467.0f), 0.25f);
+    EXPECT_EQ(wipe_at(*layout.bars[0], 456.0f), 0.25f);
     EXPECT_EQ(wipe_at(*layout.bars[0], 9999.0f), 1.0f);
 
     state.traced = TracedView::Beside;
     layout = make_layout(state);
-    EXPECT_TRUE(bar_at(layout, {467.0f, 10.0f}, 1.0f));
-    EXPECT_TRUE(bar_at(layout, {809.0f, 10.0f}, 1.0f)) << "the traced picture has one too";
+    EXPECT_TRUE(bar_at(layout, {456.0f, 10.0f}, 1.0f));
+    EXPECT_TRUE(bar_at(layout, {776.0f, 10.0f}, 1.0f)) << "the traced picture has one too";
     state.shading = Shading::Heat;
     state.heat_difference = true;
-    EXPECT_FALSE(bar_at(make_layout(state), {809.0f, 10.0f}, 1.0f)) << "the difference is of both";
+    EXPECT_FALSE(bar_at(make_layout(state), {776.0f, 10.0f}, 1.0f)) << "the difference is of both";
     state.compare_view = CompareView::Beside;
     EXPECT_FALSE(make_layout(state).bars[0]);
     state.sides[1].recipe.clear();

@@ -44,8 +44,12 @@ TEST_P(EveryRefittable, OnTheFrameOfTheBuildTheTreeIsTheBuiltOneBitForBit) {
     Task task;
     const std::shared_ptr<const Scene> scene = kitchen_at(7);
     const Built built = run_recipe(parse_recipe(GetParam()), scene, cache, task).value();
-    const Built refitted =
-        run_recipe(parse_recipe(GetParam() + " > refit(from=7)"), scene, cache, task).value();
+    const Recipe recipe = parse_recipe(GetParam() + " > refit(from=7)");
+    if (built.structure.as<Bvh2>()->prims.size() > scene->mesh.triangle_count()) {
+        EXPECT_THROW(run_recipe(recipe, scene, cache, task), Error) << "it holds pieces of triangles";
+        return;
+    }
+    const Built refitted = run_recipe(recipe, scene, cache, task).value();
     EXPECT_TRUE(same_bytes(*built.structure.as<Bvh2>(), *refitted.structure.as<Bvh2>()));
 }
 

@@ -198,7 +198,7 @@ TEST_F(Selecting, VerifyIsOfTheViewItWasAskedFor) {
     viewer_.wait();
     ASSERT_TRUE(viewer_.check());
     EXPECT_EQ(viewer_.check()->checked, 200u);
-    EXPECT_EQ(viewer_.check()->width, 342);
+    EXPECT_EQ(viewer_.check()->width, 320);
     EXPECT_EQ(viewer_.check()->modes[0].wrong(), 0u);
     const auto check = viewer_.check();
     viewer_.state.mode = Mode::Fast;

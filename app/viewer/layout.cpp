@@ -7,7 +7,7 @@ namespace boxwood {
 namespace {
 
 constexpr float kLeftWidth = 296.0f, kRightWidth = 344.0f, kStatusHeight = 24.0f;  // at interface scale 1
-constexpr float kNarrowestView = 200.0f;
+constexpr float kNarrowestView = 180.0f;
 constexpr float kBarReach = 6.0f;  // pixels to either side of a wipe bar, at interface scale 1
 
 ViewRect left_part(const ViewRect& rect, float width) { return {rect.x, rect.y, width, rect.height}; }

@@ -1,6 +1,9 @@
 #include "core/bvh/refit.h"
 
+#include <string>
+
 #include "core/base/assert.h"
+#include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/scene/frame.h"
 
@@ -60,6 +63,10 @@ void Refit::describe(ParamVisitor& v) {
 }
 
 Bvh2 Refit::apply(const Mesh& mesh, std::span<const PrimRef>, const Bvh2& input, Task& task) const {
+    if (input.prims.size() > mesh.triangle_count())
+        throw Error(ExitCode::WrongUsage, "refit needs whole triangles, but the tree before it holds " +
+                                              std::to_string(input.prims.size()) + " references to " +
+                                              std::to_string(mesh.triangle_count()) + " of them");
     Bvh2 bvh = input;
     if (!bvh.nodes.empty()) Refitting(mesh, bvh, task).refit(0, 0);
     return bvh;

@@ -17,7 +17,8 @@ struct Refit {
 
     void describe(ParamVisitor& v);
     int input_frame() const { return from; }
-    /// `refs` are not used: leaves hold whole triangles, whose boxes come from the mesh.
+    /// `refs` are not used: leaves hold whole triangles, whose boxes come from the mesh. Throws Error
+    /// (WrongUsage) where the builder made pieces of triangles.
     Bvh2 apply(const Mesh& mesh, std::span<const PrimRef> refs, const Bvh2& input, Task& task) const;
 };
 
