@@ -51,8 +51,7 @@ void add_prims(const Bvh2& bvh, const Bvh2::Node& node, std::vector<uint32_t>& p
 /// Each number once, in ascending order.
 void sort_once(std::vector<uint32_t>& prims) {
     std::ranges::sort(prims);
-    const auto repeated = std::ranges::unique(prims);
-    prims.erase(repeated.begin(), repeated.end());
+    prims.erase(std::unique(prims.begin(), prims.end()), prims.end());
 }
 
 /// Where the parts of a plan stand in the wide hierarchy: first all numbers, one node after the other, then
