@@ -111,13 +111,15 @@ TEST(Ploc, MergesEqualClustersInPairs) {
 }
 
 TEST(Ploc, EndsSoonWhereEachIsNearestToTheOneBefore) {
-    // Cubes one in another: each one's nearest is smaller, so that one pair merges in a round. 100000 rounds
-    // would take minutes.
+    // Growing cubes side by side, each nearest to the smaller one beside it: one pair would merge in a round,
+    // and 20000 rounds would take minutes.
     Task task;
     std::vector<PrimRef> refs;
-    for (uint32_t i = 0; i < 100'000; ++i) {
-        const Vec3 corner(1.0f + static_cast<float>(i) / 1024.0f);
-        refs.push_back({Box{-corner, corner}, i});
+    float x = 0.0f, size = 1.0f;
+    for (uint32_t i = 0; i < 40'000; ++i) {
+        refs.push_back({Box{Vec3(x, 0, 0), Vec3(x + size, size, size)}, i});
+        x += size;
+        size *= 1.0005f;
     }
     const Bvh2 bvh = Ploc{}.build(Mesh{}, refs, task);
     EXPECT_EQ(bvh.prims.size(), refs.size());
