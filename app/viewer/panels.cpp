@@ -25,9 +25,10 @@ void left_panel(const panel::Context& context) {
     // What is saved and undone stays in sight where the rest has to scroll.
     const ViewRect& rect = context.layout.left;
     const ImVec2 padding = ImGui::GetStyle().WindowPadding;
-    const float rest = std::max(rect.height - panel::session_height(context) - padding.y, 1.0f);
+    const float spacing = ImGui::GetStyle().ItemSpacing.y;
+    const float rest = std::max(rect.height - panel::session_height(context) - padding.y + spacing, 1.0f);
     ImGui::SetCursorPos({0.0f, 0.0f});
-    ImGui::BeginChild("settings", {rect.width, rest + padding.y}, /*border=*/false,
+    ImGui::BeginChild("settings", {rect.width, rest + spacing}, /*border=*/false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding);
     panel::scene_part(context);
     panel::recipe_part(context);
