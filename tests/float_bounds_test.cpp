@@ -24,8 +24,8 @@ struct HalfSlab : FloatBounds {
 struct HalfMoved : FloatBounds {
     static constexpr float kMoved = 0.5f * FloatBounds::kMoved;
 };
-struct HalfMargin : FloatBounds {
-    static constexpr float kMargin = 0.5f * FloatBounds::kMargin;
+struct QuarterOfMargin : FloatBounds {
+    static constexpr float kMargin = 0.25f * FloatBounds::kMargin;
 };
 struct HalfEdge : FloatBounds {
     static constexpr float kEdge = 0.5f * FloatBounds::kEdge;
@@ -53,7 +53,7 @@ enum class Variant {
     Derived,
     HalfSlab,
     HalfMoved,
-    HalfMargin,
+    QuarterOfMargin,
     HalfEdge,
     HalfFarEdge,
     HalfTerm,
@@ -138,8 +138,8 @@ void answer_cases(std::span<const FloatCase> cases, Mode mode, Variant variant,
             return answer_with<Mode::Exact, HalfFarEdge>(cases, answers);
         case Variant::HalfTerm:
             return answer_with<Mode::Exact, HalfTerm>(cases, answers);
-        case Variant::HalfMargin:
-            return answer_with<Mode::Fast, HalfMargin>(cases, answers);
+        case Variant::QuarterOfMargin:
+            return answer_with<Mode::Fast, QuarterOfMargin>(cases, answers);
         case Variant::HalfFastEdge:
             return answer_with<Mode::Fast, HalfFastEdge>(cases, answers);
         case Variant::HalfFastRange:
@@ -173,6 +173,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Calls f(name, whether it has fused operations) with each instruction set of this machine in use.
 void for_each_target(const std::function<void(const char*, bool)>& f) {
     for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        if (target == HWY_SCALAR) continue;  // has no vectors
         hwy::SetSupportedTargetsForTest(target);
 #if HWY_ARCH_X86
         const bool is_fused = target <= HWY_AVX2;  // better ones have lower bits
@@ -194,6 +195,13 @@ std::vector<FloatCase> make_cases(const Make& make, int count, uint64_t seed) {
         cases.push_back(make(rng));
         if (cases.back().box.is_empty()) cases.back().box = cases.back().triangle.bounds();
     }
+    return cases;
+}
+
+/// Cases of the given seeds: found by a search over millions.
+std::vector<FloatCase> found_cases(const Make& make, std::initializer_list<uint64_t> seeds) {
+    std::vector<FloatCase> cases;
+    for (const uint64_t seed : seeds) cases.push_back(make_cases(make, 1, seed).front());
     return cases;
 }
 
@@ -269,25 +277,25 @@ int wrong_count(const std::vector<FloatCase>& cases, Mode mode, Variant variant,
     return wrong;
 }
 
+/// Which kind of arithmetic rounds enough to need the whole bound.
+enum class Needs { Any, Fused, Plain };
+
 /// No answer with the derived bounds is wrong, and with the variant's on some instruction set some are.
 void expect_needed(const std::vector<FloatCase>& cases, Mode mode, Variant variant, const IsWrong& is_wrong,
-                   bool needs_fused = false) {
+                   Needs needs = Needs::Any) {
     int wrong = 0;
-    bool has_fused = false;
+    bool is_tried = false;
     for_each_target([&](const char* name, bool is_fused) {
         EXPECT_EQ(wrong_count(cases, mode, Variant::Derived, is_wrong), 0) << name;
-        const int wrong_here = wrong_count(cases, mode, variant, is_wrong);
-        wrong += wrong_here;
-        has_fused |= is_fused;
-        if (getenv("SHOW")) printf("%s %d\n", name, wrong_here);
+        if (needs != Needs::Any && is_fused != (needs == Needs::Fused)) return;
+        wrong += wrong_count(cases, mode, variant, is_wrong);
+        is_tried = true;
     });
-    if (has_fused || !needs_fused) {
-        EXPECT_GT(wrong, 0);
-    }
+    EXPECT_TRUE(wrong > 0 || !is_tried);
 }
 
 TEST(FloatBounds, SlabRoundingsNeedTheirPad) {
-    expect_needed(make_cases(before_plane, 3000, 1), Mode::Exact, Variant::HalfSlab, is_box_wrong);
+    expect_needed(make_cases(before_plane, 1000, 1), Mode::Exact, Variant::HalfSlab, is_box_wrong);
 }
 
 TEST(FloatBounds, ReplacedComponentsNeedTheirPad) {
@@ -295,7 +303,7 @@ TEST(FloatBounds, ReplacedComponentsNeedTheirPad) {
 }
 
 TEST(FloatBounds, BoxesAreMetAtTheirCorners) {
-    const std::vector<FloatCase> cases = make_cases(at_corner, 20000, 3);
+    const std::vector<FloatCase> cases = make_cases(at_corner, 6000, 3);
     EXPECT_TRUE(oracle::meets(cases[0].ray, cases[0].box));
     for_each_target([&](const char* name, bool) {
         EXPECT_EQ(wrong_count(cases, Mode::Exact, Variant::Derived, is_box_wrong), 0) << name;
@@ -312,24 +320,69 @@ std::vector<FloatCase> fast_hits(const Make& make, int count, uint64_t seed) {
     return hits;
 }
 
+/// Half of the margin alone is too small (FastMode.MarginHoldsAndHalfOfItDoesNot), but here it is added to
+/// the pad of the slabs' own roundings, 3u of the reach. The largest sum of both errors that a search found
+/// is 5.06u of 8.5u, so a quarter of the margin is too little; half of it, 5.75u in all, was not seen to
+/// fail. The ray passes a corner on the outside.
 TEST(FloatBounds, BoxesNeedFastModesMargin) {
-    const std::vector<FloatCase> hits = fast_hits(past_corner, 200000, 4);
-    EXPECT_GT(hits.size(), 5000u);
-    expect_needed(hits, Mode::Fast, Variant::HalfMargin, is_fast_box_wrong);
+    constexpr float kFound[][6] = {
+        {-0x1.03abd4p-10f, -0x1.011c26p-10f, 0x1.fa534ap+0f, 0x1.fc8c84p+0f, 0x1.05dffcp+0f, 0x1.07074ep+0f},
+        {0x1.0514p-10f, -0x1.06a5dap-10f, 0x1.f7901ep+0f, 0x1.fb1204p+0f, 0x1.020132p+0f, 0x1.0349d8p+0f},
+        {-0x1.0414p-10f, 0x1.020362p-10f, 0x1.f6858ap+0f, 0x1.f9adbep+0f, 0x1.032924p+0f, 0x1.054bdep+0f}};
+    std::vector<FloatCase> found;
+    for (const auto& [ox, oz, dx, dz, x, z] : kFound) {
+        FloatCase one_case;
+        one_case.ray.origin = {ox, 0.0f, oz};
+        one_case.ray.direction = {dx, 0.0f, dz};
+        one_case.triangle.a = {x, 0.0f, z};
+        one_case.triangle.b = one_case.triangle.a + Vec3(0.125f, 0.5f, 0.0f);
+        one_case.triangle.c = one_case.triangle.a + Vec3(0.125f, -0.5f, 0.0f);
+        one_case.box = one_case.triangle.bounds();
+        one_case.ray.t_max = searched_t(one_case.ray, one_case.triangle);
+        found.push_back(one_case);
+    }
+    expect_needed(found, Mode::Fast, Variant::QuarterOfMargin, is_fast_box_wrong, Needs::Plain);
+    const std::vector<FloatCase> hits = fast_hits(past_corner, 50000, 4);
+    EXPECT_GT(hits.size(), 2000u);
+    for_each_target([&](const char* name, bool) {
+        EXPECT_EQ(wrong_count(hits, Mode::Fast, Variant::Derived, is_fast_box_wrong), 0) << name;
+    });
 }
 
 TEST(FloatBounds, EdgeFunctionsNeedTheirBound) {
-    const auto make = [](Rng& rng) { return aimed_at_edge(rng, false); };
-    expect_needed(make_cases(make, 100000, 5), Mode::Exact, Variant::HalfEdge, is_line_wrong);
+    const Make make = [](Rng& rng) { return aimed_at_edge(rng, false); };
+    const std::vector<FloatCase> cases =
+        found_cases(make, {235712, 695972, 933105, 1041236, 1082220, 2497228, 2872638});
+    expect_needed(cases, Mode::Exact, Variant::HalfEdge, is_line_wrong, Needs::Plain);
 }
 
 TEST(FloatBounds, EdgeFunctionsNeedTheirBoundByTheScene) {
-    const auto make = [](Rng& rng) { return aimed_at_edge(rng, true); };
-    expect_needed(make_cases(make, 100000, 6), Mode::Exact, Variant::HalfFarEdge, is_line_wrong);
+    const Make make = [](Rng& rng) { return aimed_at_edge(rng, true); };
+    const std::vector<FloatCase> cases = found_cases(
+        make, {152091, 236215, 329939, 352094, 367971, 397378, 519392, 620933, 766256, 778493, 1303158});
+    expect_needed(cases, Mode::Exact, Variant::HalfFarEdge, is_line_wrong, Needs::Plain);
 }
 
 TEST(FloatBounds, TNeedsItsBound) {
-    expect_needed(make_cases(with_large_roundings_of_t, 8000, 7), Mode::Exact, Variant::HalfTerm, is_t_wrong);
+    const std::vector<FloatCase> cases =
+        found_cases(with_large_roundings_of_t, {10385, 29291, 34969, 44466, 51741, 86710});
+    expect_needed(cases, Mode::Exact, Variant::HalfTerm, is_t_wrong, Needs::Plain);
+}
+
+/// However the mantissas fall, no answer is wrong.
+TEST(FloatBounds, HoldWhereRoundingsAreLarge) {
+    const Make near = [](Rng& rng) { return aimed_at_edge(rng, false); };
+    const Make far = [](Rng& rng) { return aimed_at_edge(rng, true); };
+    const std::vector<FloatCase> near_edge = make_cases(near, 20000, 5), far_edge = make_cases(far, 20000, 6),
+                                 planes = make_cases(with_large_roundings_of_t, 4000, 7),
+                                 corners = make_cases(along_z_inside_corner, 20000, 10);
+    for_each_target([&](const char* name, bool) {
+        SCOPED_TRACE(name);
+        EXPECT_EQ(wrong_count(near_edge, Mode::Exact, Variant::Derived, is_line_wrong), 0);
+        EXPECT_EQ(wrong_count(far_edge, Mode::Exact, Variant::Derived, is_line_wrong), 0);
+        EXPECT_EQ(wrong_count(planes, Mode::Exact, Variant::Derived, is_t_wrong), 0);
+        EXPECT_EQ(wrong_count(corners, Mode::Fast, Variant::Derived, is_fast_wrong), 0);
+    });
 }
 
 /// t is 3 2^-152: not a float, and the float next to it is an ulp away.
@@ -344,24 +397,32 @@ TEST(FloatBounds, TThatUnderflowsNeedsItsBound) {
 
 TEST(FloatBounds, FusedEdgeFunctionsOfFastModeNeedTheirBound) {
     expect_needed(make_cases(along_z_at_edge, 20000, 8), Mode::Fast, Variant::HalfFastEdge, is_fast_wrong,
-                  true);
+                  Needs::Fused);
 }
 
 TEST(FloatBounds, FastModesTNeedsTheBoundOfItsEdgeFunctions) {
     expect_needed(make_cases(along_z_through_sliver, 20000, 9), Mode::Fast, Variant::HalfFastRange,
-                  is_fast_wrong);
+                  is_fast_wrong, Needs::Plain);
 }
 
+/// Found by a search that changes single bits of a ray along z past a corner of a triangle across it.
 TEST(FloatBounds, FastModesTNeedsItsBound) {
-    expect_needed(make_cases(along_z_across, 100000, 10), Mode::Fast, Variant::HalfFastZ, is_fast_wrong);
+    FloatCase one_case;
+    constexpr float kZ = 0x1.2076e4p+0f;
+    one_case.triangle = {{0x1.07e912p+0f, 0x1.c1e9a2p-10f, kZ},
+                         {0x1.0eaa72p-10f, 0x1.f0ff26p-1f, kZ},
+                         {-0x1.d1f4cp-7f, -0x1.b9ad64p-7f, kZ}};
+    one_case.box = one_case.triangle.bounds();
+    one_case.ray.direction.z = 0x1.9973b8p+0f;
+    expect_needed({one_case}, Mode::Fast, Variant::HalfFastZ, is_fast_wrong, Needs::Plain);
 }
 
 TEST(FloatBounds, HoldOnRaysOfAllSizes) {
-    std::vector<FloatCase> cases = make_cases(anywhere, 8000, 11);
-    for (const FloatCase& one_case : make_cases(past_sliver, 2000, 12)) cases.push_back(one_case);
-    const std::vector<FloatCase> hits = fast_hits(anywhere, 8000, 13),
-                                 slivers = fast_hits(past_sliver, 8000, 14);
-    EXPECT_GT(hits.size(), 1000u);
+    std::vector<FloatCase> cases = make_cases(anywhere, 2500, 11);
+    for (const FloatCase& one_case : make_cases(past_sliver, 500, 12)) cases.push_back(one_case);
+    const std::vector<FloatCase> hits = fast_hits(anywhere, 5000, 13),
+                                 slivers = fast_hits(past_sliver, 40000, 14);
+    EXPECT_GT(hits.size(), 500u);
     EXPECT_GT(slivers.size(), 100u);
     for_each_target([&](const char* name, bool) {
         SCOPED_TRACE(name);

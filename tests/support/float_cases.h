@@ -68,13 +68,13 @@ inline FloatCase with_large_roundings_of_t(Rng& rng) {
     return result;
 }
 
-/// A plane across x close to an origin that is far from 0.
+/// A plane across x, 0 between it and the origin. 1/d is just above 1/2.
 inline FloatCase before_plane(Rng& rng) {
     FloatCase result;
-    const float ox = one(rng), dx = one(rng), distance = std::ldexp(one(rng), -10);
+    const float ox = -one(rng), px = one(rng), dx = 2.0f - 0.03f * rng.next();
     result.ray.origin.x = ox;
     result.ray.direction = {dx, 0.0f, 0.0f};
-    result.box = {{ox + distance, -0.001f, -0.001f}, {ox + 1.5f * distance, 0.001f, 0.001f}};
+    result.box = {{px, -0.001f, -0.001f}, {px, 0.001f, 0.001f}};
     return result;
 }
 
@@ -118,7 +118,7 @@ inline FloatCase at_corner(Rng& rng) {
 /// 1, and differences with the origin round.
 inline FloatCase past_corner(Rng& rng) {
     const float ox = 0x1p-10f * one(rng) * sign(rng), oz = 0x1p-10f * one(rng) * sign(rng);
-    const float dz = one(rng), dx = dz * (1.0f - 0.01f * rng.next()), bz = one(rng);
+    const float dz = 2.0f - 0.03f * rng.next(), dx = dz * (1.0f - 0.01f * rng.next()), bz = one(rng);
     const double offset = double(rng.next(0.0f, 6.0f)) * 0x1p-24;
     const double x = double(ox) + double(dx) / double(dz) * (double(bz) - double(oz)) + offset;
     FloatCase result;
@@ -167,12 +167,13 @@ inline FloatCase along_z_through_sliver(Rng& rng) {
     return result;
 }
 
-/// A ray along z across a triangle.
-inline FloatCase along_z_across(Rng& rng) {
+/// A ray along z past corner c of a triangle across it, on the inside. Half the bound of t is just below four
+/// units of t.
+inline FloatCase along_z_inside_corner(Rng& rng) {
     FloatCase result;
-    const float z = one(rng), dz = one(rng);
-    const float ax = one(rng), ay = -0.25f * one(rng), bx = -one(rng), by = 0.125f * one(rng);
-    const float cx = tiny(rng), cy = one(rng) * sign(rng);
+    const float z = one(rng), dz = 1.56f + 0.04f * rng.next();
+    const float ax = one(rng), ay = tiny(rng), bx = tiny(rng), by = one(rng);
+    const float cx = -0x1p-6f * one(rng), cy = -0x1p-6f * one(rng);
     result.triangle = {{ax, ay, z}, {bx, by, z}, {cx, cy, z}};
     result.ray.direction.z = dz;
     return result;
