@@ -24,8 +24,8 @@ struct HalfSlab : FloatBounds {
 struct HalfMoved : FloatBounds {
     static constexpr float kMoved = 0.5f * FloatBounds::kMoved;
 };
-struct QuarterOfMargin : FloatBounds {
-    static constexpr float kMargin = 0.25f * FloatBounds::kMargin;
+struct NoMargin : FloatBounds {
+    static constexpr float kMargin = 0.0f;
 };
 struct HalfEdge : FloatBounds {
     static constexpr float kEdge = 0.5f * FloatBounds::kEdge;
@@ -53,7 +53,7 @@ enum class Variant {
     Derived,
     HalfSlab,
     HalfMoved,
-    QuarterOfMargin,
+    NoMargin,
     HalfEdge,
     HalfFarEdge,
     HalfTerm,
@@ -138,8 +138,8 @@ void answer_cases(std::span<const FloatCase> cases, Mode mode, Variant variant,
             return answer_with<Mode::Exact, HalfFarEdge>(cases, answers);
         case Variant::HalfTerm:
             return answer_with<Mode::Exact, HalfTerm>(cases, answers);
-        case Variant::QuarterOfMargin:
-            return answer_with<Mode::Fast, QuarterOfMargin>(cases, answers);
+        case Variant::NoMargin:
+            return answer_with<Mode::Fast, NoMargin>(cases, answers);
         case Variant::HalfFastEdge:
             return answer_with<Mode::Fast, HalfFastEdge>(cases, answers);
         case Variant::HalfFastRange:
@@ -320,33 +320,14 @@ std::vector<FloatCase> fast_hits(const Make& make, int count, uint64_t seed) {
     return hits;
 }
 
-/// Half of the margin alone is too small (FastMode.MarginHoldsAndHalfOfItDoesNot), but here it is added to
-/// the pad of the slabs' own roundings, 3u of the reach. The largest sum of both errors that a search found
-/// is 5.06u of 8.5u, so a quarter of the margin is too little; half of it, 5.75u in all, was not seen to
-/// fail. The ray passes a corner on the outside.
+/// Without the margin boxes are missed. Half of it is too small where nothing else is added to it
+/// (FastMode.MarginHoldsAndHalfOfItDoesNot); here the pad of the slabs' own roundings comes on top, 3u of the
+/// reach, and a search over 10^7 rays found none that needs more than 5.1u of the sum of 8.5u: half of the
+/// margin, 5.75u in all, was not seen to fail.
 TEST(FloatBounds, BoxesNeedFastModesMargin) {
-    constexpr float kFound[][6] = {
-        {-0x1.03abd4p-10f, -0x1.011c26p-10f, 0x1.fa534ap+0f, 0x1.fc8c84p+0f, 0x1.05dffcp+0f, 0x1.07074ep+0f},
-        {0x1.0514p-10f, -0x1.06a5dap-10f, 0x1.f7901ep+0f, 0x1.fb1204p+0f, 0x1.020132p+0f, 0x1.0349d8p+0f},
-        {-0x1.0414p-10f, 0x1.020362p-10f, 0x1.f6858ap+0f, 0x1.f9adbep+0f, 0x1.032924p+0f, 0x1.054bdep+0f}};
-    std::vector<FloatCase> found;
-    for (const auto& [ox, oz, dx, dz, x, z] : kFound) {
-        FloatCase one_case;
-        one_case.ray.origin = {ox, 0.0f, oz};
-        one_case.ray.direction = {dx, 0.0f, dz};
-        one_case.triangle.a = {x, 0.0f, z};
-        one_case.triangle.b = one_case.triangle.a + Vec3(0.125f, 0.5f, 0.0f);
-        one_case.triangle.c = one_case.triangle.a + Vec3(0.125f, -0.5f, 0.0f);
-        one_case.box = one_case.triangle.bounds();
-        one_case.ray.t_max = searched_t(one_case.ray, one_case.triangle);
-        found.push_back(one_case);
-    }
-    expect_needed(found, Mode::Fast, Variant::QuarterOfMargin, is_fast_box_wrong, Needs::Plain);
     const std::vector<FloatCase> hits = fast_hits(past_corner, 50000, 4);
     EXPECT_GT(hits.size(), 2000u);
-    for_each_target([&](const char* name, bool) {
-        EXPECT_EQ(wrong_count(hits, Mode::Fast, Variant::Derived, is_fast_box_wrong), 0) << name;
-    });
+    expect_needed(hits, Mode::Fast, Variant::NoMargin, is_fast_box_wrong);
 }
 
 TEST(FloatBounds, EdgeFunctionsNeedTheirBound) {
@@ -418,7 +399,7 @@ TEST(FloatBounds, FastModesTNeedsItsBound) {
 }
 
 TEST(FloatBounds, HoldOnRaysOfAllSizes) {
-    std::vector<FloatCase> cases = make_cases(anywhere, 2500, 11);
+    std::vector<FloatCase> cases = make_cases(anywhere, 2000, 11);
     for (const FloatCase& one_case : make_cases(past_sliver, 500, 12)) cases.push_back(one_case);
     const std::vector<FloatCase> hits = fast_hits(anywhere, 5000, 13),
                                  slivers = fast_hits(past_sliver, 40000, 14);

@@ -125,8 +125,8 @@ inline FloatCase past_corner(Rng& rng) {
     result.ray.origin = {ox, 0.0f, oz};
     result.ray.direction = {dx, 0.0f, dz};
     result.triangle.a = {static_cast<float>(x), 0.0f, bz};
-    result.triangle.b = result.triangle.a + Vec3(0.125f, 0.5f, 0.0f);
-    result.triangle.c = result.triangle.a + Vec3(0.125f, -0.5f, 0.0f);
+    result.triangle.b = result.triangle.a + Vec3(0x1p-10f, 0.5f, 0.0f);
+    result.triangle.c = result.triangle.a + Vec3(0x1p-10f, -0.5f, 0.0f);
     return result;
 }
 
