@@ -94,7 +94,7 @@ HWY_NOINLINE void answer_with(std::span<const FloatCase> cases, std::span<FloatA
         const FloatRay<mode, Bounds> ray(one_case.ray, FloatScene(one_case.box));
         answer.is_usable = ray.is_usable;
         if (!ray.is_usable) continue;
-        HWY_ALIGN TrianglePack pack{};
+        TrianglePack pack{};
         HWY_ALIGN float planes[6][8], entries[8], exits[8];
         const Vec3 corners[3] = {one_case.triangle.a, one_case.triangle.b, one_case.triangle.c};
         for (int axis = 0; axis < 3; ++axis) {
