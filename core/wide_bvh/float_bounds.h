@@ -8,41 +8,56 @@
 namespace boxwood {
 
 /// What float SIMD may decide for sure, for rays of ordinary size in scenes of ordinary size. u = 2^-24 is
-/// the largest relative error of one operation, fused or not; R the distance, along an axis, of the scene's
-/// farthest corner from the ray's origin.
+/// the largest relative error of one operation; products may be fused with the sum that follows, or not. R is
+/// the distance, along an axis, of the scene's farthest corner from the ray's origin. What is of second order
+/// has room in kSecondOrder: 2^-10 is 2^14 u.
 ///
-/// Boxes. The parameter of a plane p of one axis is p r + c, with r = 1/d and c = -(o r), both rounded. Q is
-/// the sum of |o| and the largest |p| of the scene's box: |p - o|, |p| and |o| are at most Q. Roundings of r,
-/// o r, c, p r and of the sum are at most u Q |r| each, to first order: 5u Q |r| in all. A component below
-/// 2^-24 of the largest one D is replaced by that: inside the scene's box D t is at most R, so the point at t
-/// moves by at most u R, which is u R |r| of the parameter. Both, and the margin by which fast mode's boxes
-/// are larger, are taken off c for near planes and added to it for far ones, so every box is met that is met
-/// exactly, and its entry is a lower bound. (Without that a fused slab test misses boxes.)
+/// Boxes. The parameter of a plane p of one axis is p r + c, with r = 1/d and c = -(o r) -+ pad. With R_i
+/// this axis' own R, and P the largest |p|: the roundings of r and of the last sum are at most u R_i |r|
+/// each, those of o r and c u |o r| each, that of p r u P |r|: u |r| (2 (R_i + |o|) + P) in all, to first
+/// order. A component below 2^-24 of the largest one D is replaced by that: inside the scene's box D t is at
+/// most R, so the point at t moves by at most u R, which is u R |r| of the parameter. Both, and the margin by
+/// which fast mode's boxes are larger, are taken off near planes and added to far ones, so every box is met
+/// that is met exactly, and its entry is a lower bound. (Without that a fused slab test misses boxes.)
 ///
-/// Edge functions. As EdgeFilter in filter.h: |U - U*| <= 4X u (2X + 3.5Z) + 2X^2 u <= 24u X max(X, Z), and
-/// X, Z <= R.
+/// Edge functions, exact mode. As for EdgeFilter in filter.h, with X the largest |x| or |y| of the sheared
+/// vertices and Z the largest |z|, x is off by at most e = u (2X + 3.5Z), and U, its sign's roundings, by 4X
+/// e
+/// + 2 e^2 + 2u X^2 = u (10 X^2 + 14 X Z) + 24.5 u^2 Z^2. Let |U|, which is at most 2 X^2, exceed 24u X
+/// max(X, Z): then X > 12u Z, the last term is below 2.1u X Z, and of second order from X = 2^-10 Z on, where
+/// 10 X^2 begins to count. So U has the right sign. By R alone, as |a_x| and |a_z| are at most R, but X up to
+/// 2R: e = u (3.5R + X), and U is off by at most 26u X R.
 ///
-/// t. As interval_of_t in filter.h: numerator and denominator are off by at most 8u times the sum of their
-/// absolute monomials, eN and eD; where |D| > 2 eD, |t - t*| <= (eN + |t| eD) / (|D| - eD) <= 2 (eN + |t| eD)
-/// / |D|, and 2u |t| for quotient and ends.
+/// t, exact mode. As for interval_of_t in filter.h: numerator and denominator are off by at most eN = 8u, eD
+/// = 7u times the sum of their absolute monomials; |t - N / D| <= (eN + |t| eD) / (|D| - eD). Where |D| > 16
+/// eD that is at most 16/15 (eN + |t| eD) / |D|. The inverse, its product with N and the ends are rounded:
+/// 3u |t|, which is at most 3u / |D| times the monomials of N: 11u instead of 8u.
 ///
-/// Fast mode compares the t that it calculates itself, in another way: z = (U a_z + V b_z + W c_z) / S, S = U
-/// + V + W, with edge functions that obey the same bound e: twice the bound decides for it. With p = b_z -
-/// a_z, q = c_z - a_z, l = max(|p|, |q|), (V p + W q) / S is between 0, p and q, so errors of V, W and S move
-/// it by at most 5 e l / (|S| - 3e), at most 10 e l / |S| where |S| > 6e; the z by u Z each, p and q by 2u Z;
-/// t = z / d_z is rounded once. 10 e l / (|S| |d_z|) + 8u Z / |d_z| covers it.
+/// Fast mode. What counts is the triangle that ClosestHit<Mode::Fast> sees, and the t that it compares. The
+/// sheared vertices are bit for bit the same; of U only the products round, by u X^2 each. Two rounded
+/// products are in the order of the exact ones, so only where one product is fused the sign may be wrong, and
+/// |U| is then at most u X^2. With f = (U a_z + V b_z + W c_z) / S, S = U + V + W, and f' that of the search,
+/// both between the least and the largest of these z, S (f - f') is the sum over the corners of U's error
+/// times (a_z - f'): at most 2u X^2 times 2 (max z - min z), as the three distances from a point between the
+/// ends are at most two ranges. The last rounding of U, V, W moves f by u Z; the products round by u Z, their
+/// sum by 2u Z, S too, 1/S, the product with it, 1/d_z, the product with that, the search's own t and the
+/// ends by u Z each: 12u Z / |d_z|.
 struct FloatBounds {
     static constexpr float kUnit = 0x1p-24f;
     static constexpr float kSmallestReach = 0x1p-30f;
     static constexpr float kSmallestDirection = 0x1p-40f;
     static constexpr float kLargest = 0x1p40f;
     static constexpr float kSecondOrder = 1.0f + 0x1p-10f;
-    static constexpr float kSlab = 6.0f * kUnit, kMoved = kUnit * kSecondOrder;
+    static constexpr float kSlab = kUnit * kSecondOrder, kMoved = kUnit * kSecondOrder;
+    static constexpr float kMargin = 5.5f * kUnit * kSecondOrder;  ///< ClosestHit<Mode::Fast>::kMargin
     static constexpr float kEdge = 24.0f * kUnit * kSecondOrder;
-    static constexpr float kTerms = 8.0f * kUnit * kSecondOrder;
-    static constexpr float kFastEdges = 10.0f * kSecondOrder, kFastZ = 8.0f * kUnit * kSecondOrder;
-    /// Added to the bound of U and of t's terms. Products that underflow are off by 2^-149 at most; a sum
-    /// that is above this divides that to less than u R / 4, as R >= 2^-30.
+    static constexpr float kFarEdge = 26.0f * kUnit * kSecondOrder;
+    static constexpr float kTermUnit = kUnit * kSecondOrder;
+    static constexpr float kFastEdge = kUnit * kSecondOrder;
+    static constexpr float kFastRange = 4.0f * kUnit * kSecondOrder;
+    static constexpr float kFastZ = 12.0f * kUnit * kSecondOrder;
+    /// Added to every bound: products that underflow are off by 2^-150, times 2^41 for what they are
+    /// multiplied with at most, and no inverse is below 2^-40 where this is multiplied with it.
     static constexpr float kUnderflow = 0x1p-94f;
 };
 

@@ -33,18 +33,16 @@ HWY_INLINE uint32_t bits_of(D d, hn::Mask<D> mask) {
 }
 
 /// A ray prepared for tests in float.
-template <Mode mode>
+template <Mode mode, class Bounds = FloatBounds>
 struct FloatRay {
-    static constexpr float kScale = mode == Mode::Fast ? 2.0f : 1.0f;
-    static constexpr float kMargin = static_cast<float>(5.5 * 0x1p-24) * FloatBounds::kSecondOrder;
-
     HWY_ALIGN float inverse[4], near_offset[4], far_offset[4];
     uint32_t octant;  ///< bit axis set: the direction's sign bit is
     bool is_usable;   ///< the ray is valid, and the bounds hold
     float t_min, t_max;
     uint32_t x, y, z;  ///< axes; z is the one with the largest |d|
     V4 origin_x, origin_y, origin_z, direction_x, direction_y, direction_z, shear_x, shear_y;
-    V4 edge_bound;  ///< of the edge functions of any triangle, to be multiplied with X
+    V4 inverse_z;
+    V4 edge_bound;  ///< of the edge functions of any triangle, to be multiplied with X; exact mode only
 
     HWY_INLINE FloatRay(const Ray& ray, const FloatScene& scene) : t_min(ray.t_min), t_max(ray.t_max) {
         const D4 d;
@@ -55,17 +53,19 @@ struct FloatRay {
         const V4 direction = hn::And(hn::LoadU(d, &ray.direction.x), three);
         const V4 size_of_d = hn::Abs(direction);
         const V4 largest_d = hn::MaxOfLanes(d, size_of_d);
-        const V4 reach = hn::Mul(hn::MaxOfLanes(d, hn::Max(hn::Abs(hn::Sub(hn::Load(d, scene.lower), o)),
-                                                           hn::Abs(hn::Sub(hn::Load(d, scene.upper), o)))),
-                                 hn::Set(d, 1.0f + 4.0f * FloatBounds::kUnit));
-        const V4 places = hn::Add(hn::Abs(o), hn::Load(d, scene.largest));
+        const V4 reaches = hn::Max(hn::Abs(hn::Sub(hn::Load(d, scene.lower), o)),
+                                   hn::Abs(hn::Sub(hn::Load(d, scene.upper), o)));
+        const V4 reach = hn::Mul(hn::MaxOfLanes(d, reaches), hn::Set(d, 1.0f + 4.0f * FloatBounds::kUnit));
+        const V4 size_of_o = hn::Abs(o), largest = hn::Load(d, scene.largest);
         const V4 least = hn::Mul(largest_d, hn::Set(d, FloatBounds::kUnit));
-        const V4 moved_d =
-            hn::IfThenElse(hn::Lt(size_of_d, least), hn::CopySign(least, direction), direction);
+        const auto is_moved = hn::Lt(size_of_d, least);
+        const V4 moved_d = hn::IfThenElse(is_moved, hn::CopySign(least, direction), direction);
         const V4 r = hn::Div(hn::Set(d, 1.0f), moved_d);
-        const V4 moved =
-            hn::Mul(reach, hn::Set(d, FloatBounds::kMoved + (mode == Mode::Fast ? kMargin : 0.0f)));
-        const V4 pad = hn::Mul(hn::Abs(r), hn::MulAdd(hn::Set(d, FloatBounds::kSlab), places, moved));
+        V4 moved = hn::IfThenElse(is_moved, hn::Mul(reach, hn::Set(d, Bounds::kMoved)),
+                                  hn::Set(d, Bounds::kUnderflow));
+        if constexpr (mode == Mode::Fast) moved = hn::MulAdd(reach, hn::Set(d, Bounds::kMargin), moved);
+        const V4 sizes = hn::MulAdd(hn::Set(d, 2.0f), hn::Add(reaches, size_of_o), largest);
+        const V4 pad = hn::Mul(hn::Abs(r), hn::MulAdd(hn::Set(d, Bounds::kSlab), sizes, moved));
         const V4 c = hn::Neg(hn::Mul(o, r));
         hn::Store(r, d, inverse);
         hn::Store(hn::Sub(c, pad), d, near_offset);
@@ -75,11 +75,13 @@ struct FloatRay {
                  7u;
         const V4 most = hn::Set(d, FloatBounds::kLargest);
         // Comparisons with NaN are false.
-        is_usable = hn::AllTrue(d, hn::And(hn::And(hn::Le(places, most), hn::Le(size_of_d, most)),
-                                           hn::Le(reach, most))) &&
-                    hn::GetLane(reach) >= FloatBounds::kSmallestReach &&
-                    hn::GetLane(largest_d) >= FloatBounds::kSmallestDirection && t_min >= 0.0f &&
-                    t_min <= t_max && t_min < std::numeric_limits<float>::infinity();
+        is_usable =
+            hn::AllTrue(d,
+                        hn::And(hn::And(hn::Le(hn::Add(size_of_o, largest), most), hn::Le(size_of_d, most)),
+                                hn::Le(reach, most))) &&
+            hn::GetLane(reach) >= FloatBounds::kSmallestReach &&
+            hn::GetLane(largest_d) >= FloatBounds::kSmallestDirection && t_min >= 0.0f && t_min <= t_max &&
+            t_min < std::numeric_limits<float>::infinity();
         const float dx = std::abs(ray.direction.x), dy = std::abs(ray.direction.y),
                     dz = std::abs(ray.direction.z);
         z = dx >= dy ? (dx >= dz ? 0 : 2) : (dy >= dz ? 1 : 2);
@@ -98,7 +100,8 @@ struct FloatRay {
         hn::Store(shears, d, shear);
         shear_x = hn::Set(d, shear[x]);
         shear_y = hn::Set(d, shear[y]);
-        edge_bound = hn::Mul(reach, hn::Set(d, kScale * FloatBounds::kEdge));
+        inverse_z = hn::Set(d, inverse[z]);
+        edge_bound = hn::Mul(reach, hn::Set(d, Bounds::kFarEdge));
     }
 };
 
@@ -110,26 +113,42 @@ struct PackHits {
 
 /// Vertices relative to the origin, sheared so that the ray is the z axis, and their edge functions.
 struct Sheared {
+    /// Fast mode's triangle is the one whose products are rounded.
+    template <Mode mode>
+    static HWY_INLINE V4 shear(V4 slope, V4 z, V4 x) {
+        return mode == Mode::Fast ? hn::Sub(x, hn::Mul(slope, z)) : hn::NegMulAdd(slope, z, x);
+    }
+
     V4 ax, ay, az, bx, by, bz, cx, cy, cz, u, v, w;
     V4 size;  ///< X: the largest |x| or |y|
 
-    template <Mode mode>
-    HWY_INLINE Sheared(const TrianglePack& pack, const FloatRay<mode>& ray) {
+    template <Mode mode, class Bounds>
+    HWY_INLINE Sheared(const TrianglePack& pack, const FloatRay<mode, Bounds>& ray) {
         const D4 d;
         az = hn::Sub(hn::Load(d, pack.corners[0][ray.z]), ray.origin_z);
         bz = hn::Sub(hn::Load(d, pack.corners[1][ray.z]), ray.origin_z);
         cz = hn::Sub(hn::Load(d, pack.corners[2][ray.z]), ray.origin_z);
-        ax = hn::NegMulAdd(ray.shear_x, az, hn::Sub(hn::Load(d, pack.corners[0][ray.x]), ray.origin_x));
-        bx = hn::NegMulAdd(ray.shear_x, bz, hn::Sub(hn::Load(d, pack.corners[1][ray.x]), ray.origin_x));
-        cx = hn::NegMulAdd(ray.shear_x, cz, hn::Sub(hn::Load(d, pack.corners[2][ray.x]), ray.origin_x));
-        ay = hn::NegMulAdd(ray.shear_y, az, hn::Sub(hn::Load(d, pack.corners[0][ray.y]), ray.origin_y));
-        by = hn::NegMulAdd(ray.shear_y, bz, hn::Sub(hn::Load(d, pack.corners[1][ray.y]), ray.origin_y));
-        cy = hn::NegMulAdd(ray.shear_y, cz, hn::Sub(hn::Load(d, pack.corners[2][ray.y]), ray.origin_y));
+        ax = shear<mode>(ray.shear_x, az, hn::Sub(hn::Load(d, pack.corners[0][ray.x]), ray.origin_x));
+        bx = shear<mode>(ray.shear_x, bz, hn::Sub(hn::Load(d, pack.corners[1][ray.x]), ray.origin_x));
+        cx = shear<mode>(ray.shear_x, cz, hn::Sub(hn::Load(d, pack.corners[2][ray.x]), ray.origin_x));
+        ay = shear<mode>(ray.shear_y, az, hn::Sub(hn::Load(d, pack.corners[0][ray.y]), ray.origin_y));
+        by = shear<mode>(ray.shear_y, bz, hn::Sub(hn::Load(d, pack.corners[1][ray.y]), ray.origin_y));
+        cy = shear<mode>(ray.shear_y, cz, hn::Sub(hn::Load(d, pack.corners[2][ray.y]), ray.origin_y));
         u = hn::MulSub(cx, by, hn::Mul(cy, bx));
         v = hn::MulSub(ax, cy, hn::Mul(ay, cx));
         w = hn::MulSub(bx, ay, hn::Mul(by, ax));
         size = hn::Max(hn::Max(hn::Max(hn::Abs(ax), hn::Abs(ay)), hn::Max(hn::Abs(bx), hn::Abs(by))),
                        hn::Max(hn::Abs(cx), hn::Abs(cy)));
+    }
+    /// By the distance of these triangles.
+    template <Mode mode, class Bounds>
+    HWY_INLINE V4 edge_bound() const {
+        const D4 d;
+        const V4 underflow = hn::Set(d, Bounds::kUnderflow);
+        if constexpr (mode == Mode::Fast)
+            return hn::MulAdd(hn::Mul(hn::Set(d, Bounds::kFastEdge), size), size, underflow);
+        const V4 reach = hn::Max(hn::Max(hn::Max(hn::Abs(az), hn::Abs(bz)), hn::Abs(cz)), size);
+        return hn::MulAdd(hn::Mul(hn::Set(d, Bounds::kEdge), size), reach, underflow);
     }
     HWY_INLINE hn::Mask<D4> is_missed(V4 bound) const {
         return hn::And(hn::Lt(hn::Min(u, hn::Min(v, w)), hn::Neg(bound)),
@@ -141,14 +160,15 @@ struct Sheared {
     }
 };
 
-/// An interval of t for every lane, where `is_steep`.
+/// An interval of t for every lane of which `is_sure` holds, and that is hit.
 struct PlaneHits {
     V4 lower, upper;
-    hn::Mask<D4> is_steep;
+    hn::Mask<D4> is_sure;
 
-    template <Mode mode>
-    HWY_INLINE PlaneHits(const TrianglePack& pack, const FloatRay<mode>& ray, const Sheared& s, V4 bound,
-                         V4 reach) {
+    /// Of the plane.
+    template <class Bounds>
+    HWY_INLINE PlaneHits(const TrianglePack& pack, const FloatRay<Mode::Exact, Bounds>& ray,
+                         const Sheared& s) {
         const D4 d;
         const V4 ox = hn::Load(d, pack.corners[0][ray.x]), oy = hn::Load(d, pack.corners[0][ray.y]),
                  oz = hn::Load(d, pack.corners[0][ray.z]);
@@ -167,51 +187,61 @@ struct PlaneHits {
         const V4 dx = ray.direction_x, dy = ray.direction_y, dz = ray.direction_z;
         const V4 numerator = hn::MulAdd(ax, nx, hn::MulAdd(ay, ny, hn::Mul(s.az, nz)));
         const V4 denominator = hn::MulAdd(dx, nx, hn::MulAdd(dy, ny, hn::Mul(dz, nz)));
-        const V4 terms = hn::Set(d, FloatBounds::kTerms), underflow = hn::Set(d, FloatBounds::kUnderflow);
+        const V4 underflow = hn::Set(d, Bounds::kUnderflow);
         const V4 numerator_error = hn::MulAdd(
-            terms,
+            hn::Set(d, 11.0f * Bounds::kTermUnit),
             hn::MulAdd(hn::Abs(ax), sum_x, hn::MulAdd(hn::Abs(ay), sum_y, hn::Mul(hn::Abs(s.az), sum_z))),
             underflow);
         const V4 denominator_error = hn::MulAdd(
-            terms,
+            hn::Set(d, 7.0f * Bounds::kTermUnit),
             hn::MulAdd(hn::Abs(dx), sum_x, hn::MulAdd(hn::Abs(dy), sum_y, hn::Mul(hn::Abs(dz), sum_z))),
             underflow);
-        is_steep = hn::Gt(hn::Abs(denominator), hn::Add(denominator_error, denominator_error));
+        is_sure = hn::Gt(hn::Abs(denominator), hn::Mul(hn::Set(d, 16.0f), denominator_error));
         const V4 inverse = hn::Div(hn::Set(d, 1.0f), denominator);
         const V4 t = hn::Mul(numerator, inverse);
-        const V4 size_of_t = hn::Abs(t);
-        V4 error = hn::MulAdd(hn::Set(d, 4.0f * FloatBounds::kUnit), size_of_t,
-                              hn::Mul(hn::Mul(hn::Set(d, 2.01f), hn::Abs(inverse)),
-                                      hn::MulAdd(size_of_t, denominator_error, numerator_error)));
-        if constexpr (mode == Mode::Fast) {
-            const V4 sum = hn::Abs(hn::Add(s.u, hn::Add(s.v, s.w)));
-            const V4 length = hn::Max(hn::Abs(hn::Sub(s.bz, s.az)), hn::Abs(hn::Sub(s.cz, s.az)));
-            is_steep = hn::And(is_steep, hn::Gt(sum, hn::Mul(bound, hn::Set(d, 6.01f))));
-            const V4 edges =
-                hn::Div(hn::Mul(hn::Mul(hn::Set(d, FloatBounds::kFastEdges), bound), length), sum);
-            error = hn::Add(error, hn::Div(hn::MulAdd(hn::Set(d, FloatBounds::kFastZ), reach, edges),
-                                           hn::Abs(ray.direction_z)));
-        }
+        const V4 size = hn::Mul(hn::Set(d, 16.0f / 15.0f * FloatBounds::kSecondOrder), hn::Abs(inverse));
+        const V4 error =
+            hn::MulAdd(size, hn::MulAdd(hn::Abs(t), denominator_error, numerator_error), underflow);
         lower = hn::Sub(t, error);
         upper = hn::Add(t, error);
+    }
+    /// Of the search in fast mode.
+    template <class Bounds>
+    HWY_INLINE PlaneHits(const TrianglePack&, const FloatRay<Mode::Fast, Bounds>& ray, const Sheared& s) {
+        const D4 d;
+        const V4 underflow = hn::Set(d, Bounds::kUnderflow);
+        const V4 inverse_sum = hn::Div(hn::Set(d, 1.0f), hn::Add(s.u, hn::Add(s.v, s.w)));
+        const V4 z = hn::Mul(hn::MulAdd(s.u, s.az, hn::MulAdd(s.v, s.bz, hn::Mul(s.w, s.cz))), inverse_sum);
+        const V4 least = hn::Min(s.az, hn::Min(s.bz, s.cz)), most = hn::Max(s.az, hn::Max(s.bz, s.cz));
+        const V4 products = hn::Mul(hn::Mul(hn::Set(d, Bounds::kFastRange), s.size), s.size);
+        const V4 edges = hn::MulAdd(products, hn::Sub(most, least), underflow);
+        const V4 z_error = hn::MulAdd(hn::Set(d, Bounds::kFastZ), hn::Max(hn::Abs(least), hn::Abs(most)),
+                                      hn::Mul(edges, hn::Abs(inverse_sum)));
+        const V4 t = hn::Mul(z, ray.inverse_z);
+        const V4 error = hn::MulAdd(z_error, hn::Abs(ray.inverse_z), underflow);
+        lower = hn::Sub(t, error);
+        upper = hn::Add(t, error);
+        is_sure = hn::Le(lower, upper);
     }
 };
 
 /// False if no triangle of the pack can be hit at `limit` or before.
-template <Mode mode>
-HWY_INLINE bool test_pack(const TrianglePack& pack, const FloatRay<mode>& ray, float limit, PackHits& hits) {
+template <Mode mode, class Bounds>
+HWY_INLINE bool test_pack(const TrianglePack& pack, const FloatRay<mode, Bounds>& ray, float limit,
+                          PackHits& hits) {
     const D4 d;
-    const V4 underflow = hn::Set(d, FloatBounds::kUnderflow);
     const Sheared s(pack, ray);
-    const auto missed = s.is_missed(hn::MulAdd(ray.edge_bound, s.size, underflow));
+    if constexpr (mode == Mode::Exact) {
+        const V4 far_bound = hn::MulAdd(ray.edge_bound, s.size, hn::Set(d, Bounds::kUnderflow));
+        if (HWY_LIKELY(hn::AllTrue(d, s.is_missed(far_bound)))) return false;
+    }
+    // In exact mode again, with the bound for these triangles' own distance instead of the scene's.
+    const V4 bound = s.template edge_bound<mode, Bounds>();
+    const auto missed = s.is_missed(bound);
     if (HWY_LIKELY(hn::AllTrue(d, missed))) return false;
-    // Again with the bound for these triangles' own distance instead of the scene's.
-    const V4 reach = hn::Max(hn::Max(hn::Max(hn::Abs(s.az), hn::Abs(s.bz)), hn::Abs(s.cz)), s.size);
-    const V4 bound = hn::MulAdd(hn::Mul(hn::Set(d, FloatRay<mode>::kScale * FloatBounds::kEdge), s.size),
-                                reach, underflow);
-    const PlaneHits plane(pack, ray, s, bound, reach);
-    const auto sure = hn::And(s.is_hit(bound), plane.is_steep);
-    const auto closed = hn::Or(s.is_missed(bound), hn::And(sure, hn::Gt(plane.lower, hn::Set(d, limit))));
+    const PlaneHits plane(pack, ray, s);
+    const auto sure = hn::And(s.is_hit(bound), plane.is_sure);
+    const auto closed = hn::Or(missed, hn::And(sure, hn::Gt(plane.lower, hn::Set(d, limit))));
     hits.open = 15u & ~bits_of(d, closed);
     hits.sure = bits_of(d, sure);
     hn::Store(plane.lower, d, hits.lower);
@@ -228,8 +258,8 @@ struct BoxRay {
     /// Of the planes in a node, in floats.
     size_t plane_near_x, plane_near_y, plane_near_z, plane_far_x, plane_far_y, plane_far_z;
 
-    template <Mode mode>
-    HWY_INLINE explicit BoxRay(const FloatRay<mode>& ray) {
+    template <Mode mode, class Bounds>
+    HWY_INLINE explicit BoxRay(const FloatRay<mode, Bounds>& ray) {
         const D d;
         inverse_x = hn::Set(d, ray.inverse[0]);
         inverse_y = hn::Set(d, ray.inverse[1]);
