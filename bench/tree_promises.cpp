@@ -17,6 +17,12 @@ constexpr uint32_t kPackSize = 4;  ///< primitives that are tested together
 /// One line for each; see parse_promise. The budget of references is that of the stage.
 constexpr const char* kPromises[] = {
     "references: bvh-sweep-sah > lsc <= 2 * bvh-sweep-sah",
+    "references: bvh-spatial-splits <= 2 * bvh-sweep-sah",
+    "sah_cost: bvh-spatial-splits <= bvh-sweep-sah",
+    "sah_cost: bvh-sweep-sah > optimize <= bvh-sweep-sah",
+    "sah_cost: bvh-spatial-splits > optimize <= bvh-spatial-splits",
+    "pack_cost: bvh-sweep-sah > wide4 <= bvh-sweep-sah > wide4(collapse=greedy)",
+    "pack_cost: bvh-sweep-sah > wide8 <= bvh-sweep-sah > wide8(collapse=greedy)",
 };
 
 std::string trimmed(const std::string& text) {

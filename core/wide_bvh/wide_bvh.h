@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "core/base/large_array.h"
+#include "core/base/array.h"
 #include "core/structure/structure.h"
 
 namespace boxwood {
@@ -97,8 +97,8 @@ struct WideBvh {
     };
     static_assert(sizeof(Node) == (Width == 4 ? 128 : 256));
 
-    LargeArray<Node> nodes;
-    LargeArray<TrianglePack> packs;
+    Array<Node> nodes;
+    Array<TrianglePack> packs;
     uint32_t leaf_count = 0;
 
     template <Mode mode, class Counter>
