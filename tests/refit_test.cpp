@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/catalog/pipeline.h"
 #include "core/scene/frame.h"

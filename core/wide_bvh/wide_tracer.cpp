@@ -12,17 +12,6 @@
 #include "core/wide_bvh/float_tests-inl.h"
 #include "core/wide_bvh/plain_hits.h"
 
-#if defined(STATS) && !defined(STATS_ONCE)
-#define STATS_ONCE
-namespace boxwood {
-uint64_t g_decide, g_construct, g_open, g_packs, g_nodes, g_leaves, g_sing;
-}
-#endif
-#ifdef STATS
-#define COUNT(x) ++x
-#else
-#define COUNT(x)
-#endif
 HWY_BEFORE_NAMESPACE();
 namespace boxwood {
 namespace HWY_NAMESPACE {
@@ -81,10 +70,8 @@ struct Search {
         }
     }
     HWY_NOINLINE void decide(const TrianglePack& hit_pack, uint32_t i) {
-        COUNT(g_decide);
         NoCount count;
         if (!decided) {
-            COUNT(g_construct);
             decided.emplace(ray);
             if (prim != kNoIndex) decided->test(triangle(*pack, lane), prim, count);
         }
@@ -160,7 +147,6 @@ HWY_INLINE WideChild push_children(const typename WideBvh<Width>::Node& node, co
     const hn::CappedTag<float, Width> d;
     using V = hn::Vec<decltype(d)>;
     const float* const planes = node.lower[0];
-    COUNT(g_nodes);
     if constexpr (hn::MaxLanes(d) == Width) {
         const hn::RebindToUnsigned<decltype(d)> du;
         const V entry = ray.entry(planes);
@@ -251,11 +237,7 @@ HWY_INLINE void find_closest(const WideBvh<Width>& bvh, const FloatRay<mode>& ra
             const TrianglePack* const end = pack + child.pack_count();
             for (; pack != end; ++pack) {
                 PackHits hits;
-                COUNT(g_packs);
-                if (test_pack(*pack, ray, search.limit, hits)) {
-                    COUNT(g_open);
-                    search.keep(*pack, hits);
-                }
+                if (test_pack(*pack, ray, search.limit, hits)) search.keep(*pack, hits);
             }
         }
         do {
@@ -285,7 +267,6 @@ HWY_INLINE bool find_any(const WideBvh<Width>& bvh, const FloatRay<mode>& ray, O
             const TrianglePack* const end = pack + child.pack_count();
             for (; pack != end; ++pack) {
                 PackHits hits;
-                COUNT(g_packs);
                 if (test_pack(*pack, ray, limit, hits) && occlusion.is_hit(*pack, hits)) return true;
             }
         }
