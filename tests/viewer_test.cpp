@@ -118,10 +118,10 @@ TEST(ViewerFrame, TheMouseOrbitsAndZooms) {
         io.MouseDown[0] = down;
         headless.frame().draw(viewer);
     };
-    frame(450.0f, false);
-    frame(450.0f, true);
-    frame(500.0f, true);
-    frame(500.0f, false);
+    frame(380.0f, false);
+    frame(380.0f, true);
+    frame(430.0f, true);
+    frame(430.0f, false);
     const Camera turned = viewer.camera();
     EXPECT_EQ(turned.target, before.target);
     EXPECT_GT(glm::distance(turned.eye, before.eye), 0.01f * glm::distance(before.eye, before.target));
