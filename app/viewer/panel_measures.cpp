@@ -14,13 +14,24 @@
 namespace boxwood::panel {
 namespace {
 
+float text_width(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
+
 /// Both sides beside each other; the better value in colour.
 void compare_table(const Context& context, const std::vector<MeasurePair>& pairs) {
     constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit;
     ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
     if (ImGui::BeginTable("compare", 4, kFlags)) {
+        // As wide as their texts: a table that sizes itself by right-aligned cells never shrinks.
+        std::array<float, 3> widths{text_width("A"), text_width("B"), text_width("A \u2212 B")};
+        for (const MeasurePair& pair : pairs) {
+            const std::array<std::optional<double>, 3> values{pair.a.value, pair.b.value, pair.difference()};
+            for (size_t i = 0; i < values.size(); ++i)
+                widths[i] = std::max(widths[i], text_width(measure_text(pair.a.unit, values[i])));
+        }
         ImGui::TableSetupColumn("measure", ImGuiTableColumnFlags_WidthStretch);
-        for (const char* name : {"A", "B", "A \u2212 B"}) ImGui::TableSetupColumn(name);
+        ImGui::TableSetupColumn("A", ImGuiTableColumnFlags_WidthFixed, widths[0]);
+        ImGui::TableSetupColumn("B", ImGuiTableColumnFlags_WidthFixed, widths[1]);
+        ImGui::TableSetupColumn("A \u2212 B", ImGuiTableColumnFlags_WidthFixed, widths[2]);
         ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
         for (const Side side : kSides) {
             ImGui::TableSetColumnIndex(static_cast<int>(index_of(side)) + 1);
@@ -193,6 +204,28 @@ void side_tabs(const Context& context) {
     ImGui::Separator();
 }
 
+/// What heads and cells need; the first head has the arrow of the order at most times.
+std::array<float, kColumnCount> column_widths(const TreeStats& tree) {
+    LevelStats most;
+    for (const LevelStats& level : tree.levels) {
+        most.nodes = std::max(most.nodes, level.nodes);
+        most.leaves = std::max(most.leaves, level.leaves);
+        most.references = std::max(most.references, level.references);
+    }
+    const std::array<std::string, kColumnCount> longest{"level ww",
+                                                        grouped(most.nodes),
+                                                        grouped(most.leaves),
+                                                        grouped(most.references),
+                                                        "<0.01",
+                                                        "<0.01",
+                                                        "<0.01",
+                                                        "<0.01"};
+    std::array<float, kColumnCount> widths{};
+    for (size_t c = 0; c < kColumnCount; ++c)
+        widths[c] = std::max(text_width(kColumns[c].name), text_width(longest[c]));
+    return widths;
+}
+
 void level_table_part(const Context& context) {
     if (context.side.built == nullptr) return;
     const TreeStats& tree = *context.side.tree;
@@ -206,13 +239,19 @@ void level_table_part(const Context& context) {
     ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {2.0f * context.scale, 2.0f * context.scale});
     if (ImGui::BeginTable("levels", static_cast<int>(kColumns.size()), kFlags, {0.0f, -1.0f})) {
-        for (const ColumnText& column : kColumns) ImGui::TableSetupColumn(column.name);
+        const std::array<float, kColumnCount> widths = column_widths(tree);
+        for (size_t c = 0; c < kColumns.size(); ++c)
+            ImGui::TableSetupColumn(kColumns[c].name, ImGuiTableColumnFlags_WidthStretch, widths[c]);
         ImGui::TableSetupScrollFreeze(0, 1);
         ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
         for (size_t c = 0; c < kColumns.size(); ++c) {
             ImGui::TableSetColumnIndex(static_cast<int>(c));
-            ImGui::TableHeader(kColumns[c].name);
+            // A head with a label keeps room for an arrow in every column, where one has it.
+            const ImVec2 place = ImGui::GetCursorPos();
+            ImGui::TableHeader((std::string("##") + kColumns[c].name).c_str());
             tooltip(context, std::string(kColumns[c].tip) + " Click: sort.");
+            ImGui::SetCursorPos(place);
+            ImGui::TextUnformatted(kColumns[c].name);
         }
         const int deepest = static_cast<int>(tree.levels.size()) - 1;
         const LevelRange shown{std::min(context.state.levels.first, deepest),
