@@ -2,6 +2,7 @@
 
 #include "app/command/commands.h"
 #include "app/command/shared.h"
+#include "core/catalog/family_text.h"
 #include "core/catalog/param_text.h"
 
 namespace boxwood {
@@ -32,8 +33,8 @@ void print_for_people(const char* title, std::span<const CatalogEntry> table) {
     std::printf("%s\n", title);
     for (const CatalogEntry& entry : table) {
         std::printf("  %s: %s", entry.id, entry.label);
-        if (*entry.input != '\0') std::printf("; takes a %s", entry.input);
-        if (*entry.output != '\0') std::printf("; makes a %s", entry.output);
+        if (*entry.input != '\0') std::printf("; takes %s", with_article(entry.input).c_str());
+        if (*entry.output != '\0') std::printf("; makes %s", with_article(entry.output).c_str());
         if (!entry.exact) std::printf("; approximate");
         std::printf(". %s\n", entry.source);
         for (const ParamInfo& info : param_infos(*entry.make()))

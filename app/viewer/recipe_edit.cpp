@@ -1,4 +1,5 @@
 #include "app/viewer/recipe_edit.h"
+#include "core/catalog/family_text.h"
 
 #include <string_view>
 #include <utility>
@@ -30,8 +31,8 @@ std::string drop_misfits(Recipe& recipe) {
     std::string note;
     for (size_t i = first_misfit(recipe); i < recipe.transforms.size(); i = first_misfit(recipe)) {
         const CatalogEntry& entry = recipe.transforms[i].entry();
-        note += (note.empty() ? "" : "\n") + std::string(entry.id) + " was taken out: it needs a " +
-                entry.input + ", here is a " + family_after(recipe, i) + ".";
+        note += (note.empty() ? "" : "\n") + std::string(entry.id) + " was taken out: it needs " +
+                with_article(entry.input) + ", here is " + with_article(family_after(recipe, i)) + ".";
         recipe.transforms.erase(recipe.transforms.begin() + static_cast<std::ptrdiff_t>(i));
     }
     return note;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/catalog/family_text.h"
 #include "core/catalog/param_text.h"
 #include "core/scene/scene.h"
 
@@ -75,8 +76,8 @@ Stage parse_stage(const std::string& text, const Catalog& catalog) {
 void check_fit(const Stage& transform, const CatalogEntry& before) {
     const CatalogEntry& entry = transform.entry();
     if (std::string(entry.input) == before.output) return;
-    refuse(std::string(entry.id) + " needs a " + entry.input + ", " + before.id + " makes a " +
-           before.output);
+    refuse(std::string(entry.id) + " needs " + with_article(entry.input) + ", " + before.id + " makes " +
+           with_article(before.output));
 }
 
 }  // namespace
@@ -121,7 +122,8 @@ Recipe parse_recipe(const std::string& text, const Catalog& catalog) {
                 break;
             case StageKind::Transform:
                 if (!builder)
-                    refuse(id + " needs a " + stage.entry().input + ", but no builder comes before it");
+                    refuse(id + " needs " + with_article(stage.entry().input) +
+                           ", but no builder comes before it");
                 check_fit(stage, transforms.empty() ? builder->entry() : transforms.back().entry());
                 transforms.push_back(std::move(stage));
                 break;
