@@ -130,7 +130,7 @@ void key_list(const Context& context) {
     ImGui::SetNextWindowBgAlpha(0.94f);
     ImGui::Begin("keys", nullptr, kBare | ImGuiWindowFlags_AlwaysAutoResize);
     std::string_view group;
-    const float column = 128.0f * context.scale;
+    const float column = 102.0f * context.scale;
     ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]);
     const auto list = [&](size_t begin, size_t end) {
         ImGui::BeginGroup();
@@ -150,7 +150,7 @@ void key_list(const Context& context) {
     };
     const size_t count = key_help().size(), half = (count + 1) / 2;
     list(0, half);
-    ImGui::SameLine(0.0f, 24.0f * context.scale);
+    ImGui::SameLine(0.0f, 14.0f * context.scale);
     list(half, count);
     ImGui::PopFont();
     ImGui::End();
