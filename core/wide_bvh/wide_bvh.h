@@ -105,7 +105,8 @@ struct WideBvh {
     void closest_hit(const Mesh& mesh, ClosestHit<mode>& closest, Counter& count) const;
     template <Mode mode, class Counter>
     bool any_hit(const Mesh& mesh, ClosestHit<mode>& ray, Counter& count) const;
-    /// For whole batches, the same answers by SIMD; see wide_tracer.h.
+    /// For whole batches, the same answers as closest_hit by SIMD; see float_bounds.h. hits.size() ==
+    /// rays.size(). After a stop what is not yet traced is a miss, and not to be read.
     void closest_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits, Mode mode,
                       const Task& task) const;
     void any_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<uint8_t> occluded, Mode mode,

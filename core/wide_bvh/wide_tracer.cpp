@@ -73,32 +73,26 @@ struct Search {
         NoCount count;
         if (!decided) {
             decided.emplace(ray);
-            if (prim != kNoIndex) decided->test(triangle(*pack, lane), prim, count);
+            if (prim != kNoIndex) decided->test(pack->triangle(lane), prim, count);
         }
-        decided->test(triangle(hit_pack, i), hit_pack.prims[i], count);
+        decided->test(hit_pack.triangle(i), hit_pack.prims[i], count);
         const double bound = decided->limit();
         if (bound < double(limit)) {
             limit = static_cast<float>(bound);
             if (double(limit) < bound) limit = std::nextafter(limit, std::numeric_limits<float>::infinity());
         }
     }
-    static Triangle triangle(const TrianglePack& pack, uint32_t lane) {
-        const auto corner = [&](int i) {
-            return Vec3(pack.corners[i][0][lane], pack.corners[i][1][lane], pack.corners[i][2][lane]);
-        };
-        return {corner(0), corner(1), corner(2)};
-    }
     HWY_INLINE Hit hit(const Mesh& mesh) {
         if (!decided) {
             if (prim == kNoIndex) return {};
             if constexpr (mode == Mode::Exact) {
-                const Interval t = interval_of_t<FilterBounds>(ray, triangle(*pack, lane));
+                const Interval t = interval_of_t<FilterBounds>(ray, pack->triangle(lane));
                 const float t_lower = static_cast<float>(t.lower), t_upper = static_cast<float>(t.upper);
                 if (t_lower == t_upper) return {t_upper, prim};
             }
             NoCount count;
             decided.emplace(ray);
-            decided->test(triangle(*pack, lane), prim, count);
+            decided->test(pack->triangle(lane), prim, count);
         }
         return decided->hit(mesh);
     }
@@ -126,7 +120,7 @@ struct Occlusion {
     HWY_NOINLINE bool decide(const TrianglePack& pack, uint32_t i) {
         NoCount count;
         if (!decided) decided.emplace(ray);
-        return decided->occludes(Search<mode>::triangle(pack, i), count);
+        return decided->occludes(pack.triangle(i), count);
     }
 };
 
@@ -275,18 +269,6 @@ HWY_INLINE bool find_any(const WideBvh<Width>& bvh, const FloatRay<mode>& ray, O
     }
 }
 
-template <uint32_t Width>
-FloatScene scene_of(const WideBvh<Width>& bvh) {
-    Box box;
-    for (uint32_t lane = 0; lane < Width; ++lane) {
-        const auto& node = bvh.nodes[0];
-        if (node.children[lane].is_empty()) continue;
-        box.extend(Vec3(node.lower[0][lane], node.lower[1][lane], node.lower[2][lane]));
-        box.extend(Vec3(node.upper[0][lane], node.upper[1][lane], node.upper[2][lane]));
-    }
-    return box.is_empty() ? FloatScene() : FloatScene(box);
-}
-
 constexpr size_t kStopInterval = 64;  ///< rays from one look at task.stop to the next
 
 template <Mode mode, uint32_t Width>
@@ -294,7 +276,7 @@ HWY_NOINLINE void closest_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, s
                                   std::span<Hit> hits, const Task& task) {
     std::ranges::fill(hits, Hit{});
     if (bvh.nodes.empty()) return;
-    const FloatScene scene = scene_of(bvh);
+    const FloatScene scene(bvh.nodes[0].bounds());
     for (size_t i = 0; i < rays.size(); ++i) {
         if (i % kStopInterval == 0 && task.stopped()) return;
         const FloatRay<mode> ray(rays[i], scene);
@@ -313,7 +295,7 @@ HWY_NOINLINE void any_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, std::
                               std::span<uint8_t> occluded, const Task& task) {
     std::ranges::fill(occluded, uint8_t{0});
     if (bvh.nodes.empty()) return;
-    const FloatScene scene = scene_of(bvh);
+    const FloatScene scene(bvh.nodes[0].bounds());
     for (size_t i = 0; i < rays.size(); ++i) {
         if (i % kStopInterval == 0 && task.stopped()) return;
         const FloatRay<mode> ray(rays[i], scene);
