@@ -91,9 +91,10 @@ HWY_NOINLINE void answer_with(std::span<const FloatCase> cases, std::span<FloatA
         const FloatCase& one_case = cases[i];
         FloatAnswer& answer = answers[i];
         answer = {};
-        const FloatRay<mode, Bounds> ray(one_case.ray, FloatScene(one_case.box));
-        answer.is_usable = ray.is_usable;
-        if (!ray.is_usable) continue;
+        const FloatRays<mode, Bounds> rays({&one_case.ray, 1}, FloatScene(one_case.box));
+        answer.is_usable = rays.usable[0] != 0;
+        if (!answer.is_usable) continue;
+        const FloatRay<mode, Bounds> ray(rays, 0);
         TrianglePack pack{};
         HWY_ALIGN float planes[6][8], entries[8], exits[8];
         const Vec3 corners[3] = {one_case.triangle.a, one_case.triangle.b, one_case.triangle.c};
@@ -110,7 +111,7 @@ HWY_NOINLINE void answer_with(std::span<const FloatCase> cases, std::span<FloatA
         answer.is_plane_sure = (bits_of(d, plane.is_sure) & 1) != 0;
         answer.lower = hn::GetLane(plane.lower);
         answer.upper = hn::GetLane(plane.upper);
-        const BoxRay<8> box_ray(ray);
+        const BoxRay<8> box_ray(rays, 0);
         const typename BoxRay<8>::D d8;
         hn::Store(box_ray.entry(planes[0]), d8, entries);
         hn::Store(box_ray.exit(planes[0], one_case.ray.t_max), d8, exits);

@@ -12,6 +12,7 @@
 
 #include "core/structure/closest.h"
 #include "core/wide_bvh/float_bounds.h"
+#include "core/wide_bvh/float_rays-inl.h"
 #include "core/wide_bvh/wide_bvh.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,76 +33,28 @@ HWY_INLINE uint32_t bits_of(D d, hn::Mask<D> mask) {
     return bytes[0];
 }
 
-/// A ray prepared for tests in float.
+/// One of the prepared rays as the triangle tests take it, over the lanes of a pack.
 template <Mode mode, class Bounds = FloatBounds>
 struct FloatRay {
-    HWY_ALIGN float inverse[4], near_offset[4], far_offset[4];
-    uint32_t octant;  ///< bit axis set: the direction's sign bit is
-    bool is_usable;   ///< the ray is valid, and the bounds hold
-    float t_min, t_max;
-    uint32_t x, y, z;  ///< axes; z is the one with the largest |d|
+    size_t x, y, z;  ///< axes; z is the one with the largest |d|
     V4 origin_x, origin_y, origin_z, direction_x, direction_y, direction_z, shear_x, shear_y;
-    V4 inverse_z;
+    V4 inverse_z, t_min;
     V4 edge_bound;  ///< of the edge functions of any triangle, to be multiplied with X; exact mode only
 
-    HWY_INLINE FloatRay(const Ray& ray, const FloatScene& scene) : t_min(ray.t_min), t_max(ray.t_max) {
+    HWY_INLINE FloatRay(const FloatRays<mode, Bounds>& rays, size_t i)
+        : x(rays.axes[0][i]), y(rays.axes[1][i]), z(rays.axes[2][i]) {
         const D4 d;
-        const hn::RebindToUnsigned<D4> du;
-        HWY_ALIGN static constexpr uint32_t kThree[4] = {~0u, ~0u, ~0u, 0};
-        const V4 three = hn::BitCast(d, hn::Load(du, kThree));
-        const V4 o = hn::And(hn::LoadU(d, &ray.origin.x), three);
-        const V4 direction = hn::And(hn::LoadU(d, &ray.direction.x), three);
-        const V4 size_of_d = hn::Abs(direction);
-        const V4 largest_d = hn::MaxOfLanes(d, size_of_d);
-        const V4 reaches = hn::Max(hn::Abs(hn::Sub(hn::Load(d, scene.lower), o)),
-                                   hn::Abs(hn::Sub(hn::Load(d, scene.upper), o)));
-        const V4 reach = hn::Mul(hn::MaxOfLanes(d, reaches), hn::Set(d, 1.0f + 4.0f * FloatBounds::kUnit));
-        const V4 size_of_o = hn::Abs(o), largest = hn::Load(d, scene.largest);
-        const V4 least = hn::Mul(largest_d, hn::Set(d, FloatBounds::kUnit));
-        const auto is_moved = hn::Lt(size_of_d, least);
-        const V4 moved_d = hn::IfThenElse(is_moved, hn::CopySign(least, direction), direction);
-        const V4 r = hn::Div(hn::Set(d, 1.0f), moved_d);
-        V4 moved = hn::IfThenElse(is_moved, hn::Mul(reach, hn::Set(d, Bounds::kMoved)),
-                                  hn::Set(d, Bounds::kUnderflow));
-        if constexpr (mode == Mode::Fast) moved = hn::MulAdd(reach, hn::Set(d, Bounds::kMargin), moved);
-        const V4 sizes = hn::MulAdd(hn::Set(d, 2.0f), hn::Add(reaches, size_of_o), largest);
-        const V4 pad = hn::Mul(hn::Abs(r), hn::MulAdd(hn::Set(d, Bounds::kSlab), sizes, moved));
-        const V4 c = hn::Neg(hn::Mul(o, r));
-        hn::Store(r, d, inverse);
-        hn::Store(hn::Sub(c, pad), d, near_offset);
-        hn::Store(hn::Add(c, pad), d, far_offset);
-        octant = bits_of(d, hn::MaskFromVec(hn::BitCast(
-                                d, hn::BroadcastSignBit(hn::BitCast(hn::RebindToSigned<D4>(), direction))))) &
-                 7u;
-        const V4 most = hn::Set(d, FloatBounds::kLargest);
-        // Comparisons with NaN are false.
-        is_usable =
-            hn::AllTrue(d,
-                        hn::And(hn::And(hn::Le(hn::Add(size_of_o, largest), most), hn::Le(size_of_d, most)),
-                                hn::Le(reach, most))) &&
-            hn::GetLane(reach) >= FloatBounds::kSmallestReach &&
-            hn::GetLane(largest_d) >= FloatBounds::kSmallestDirection && t_min >= 0.0f && t_min <= t_max &&
-            t_min < std::numeric_limits<float>::infinity();
-        const float dx = std::abs(ray.direction.x), dy = std::abs(ray.direction.y),
-                    dz = std::abs(ray.direction.z);
-        z = dx >= dy ? (dx >= dz ? 0 : 2) : (dy >= dz ? 1 : 2);
-        x = z == 2 ? 0 : z + 1;
-        y = x == 2 ? 0 : x + 1;
-        const float* const origins = &ray.origin.x;
-        const float* const directions = &ray.direction.x;
-        origin_x = hn::Set(d, origins[x]);
-        origin_y = hn::Set(d, origins[y]);
-        origin_z = hn::Set(d, origins[z]);
-        direction_x = hn::Set(d, directions[x]);
-        direction_y = hn::Set(d, directions[y]);
-        direction_z = hn::Set(d, directions[z]);
-        const V4 shears = hn::Div(direction, direction_z);
-        HWY_ALIGN float shear[4];
-        hn::Store(shears, d, shear);
-        shear_x = hn::Set(d, shear[x]);
-        shear_y = hn::Set(d, shear[y]);
-        inverse_z = hn::Set(d, inverse[z]);
-        edge_bound = hn::Mul(reach, hn::Set(d, Bounds::kFarEdge));
+        origin_x = hn::Set(d, rays.origin[0][i]);
+        origin_y = hn::Set(d, rays.origin[1][i]);
+        origin_z = hn::Set(d, rays.origin[2][i]);
+        direction_x = hn::Set(d, rays.direction[0][i]);
+        direction_y = hn::Set(d, rays.direction[1][i]);
+        direction_z = hn::Set(d, rays.direction[2][i]);
+        shear_x = hn::Set(d, rays.shear_x[i]);
+        shear_y = hn::Set(d, rays.shear_y[i]);
+        inverse_z = hn::Set(d, rays.inverse_z[i]);
+        t_min = hn::Set(d, rays.t_min[i]);
+        edge_bound = hn::Set(d, rays.edge_bound[i]);
     }
 };
 
@@ -238,10 +191,10 @@ HWY_INLINE bool test_pack(const TrianglePack& pack, const FloatRay<mode, Bounds>
     // In exact mode again, with the bound for these triangles' own distance instead of the scene's.
     const V4 bound = s.template edge_bound<mode, Bounds>();
     const auto missed = s.is_missed(bound);
-    if (HWY_LIKELY(hn::AllTrue(d, missed))) return false;
     const PlaneHits plane(pack, ray, s);
     const auto sure = hn::And(s.is_hit(bound), plane.is_sure);
-    const auto closed = hn::Or(missed, hn::And(sure, hn::Gt(plane.lower, hn::Set(d, limit))));
+    const auto is_outside = hn::Or(hn::Gt(plane.lower, hn::Set(d, limit)), hn::Lt(plane.upper, ray.t_min));
+    const auto closed = hn::Or(missed, hn::And(sure, is_outside));
     hits.open = 15u & ~bits_of(d, closed);
     hits.sure = bits_of(d, sure);
     hn::Store(plane.lower, d, hits.lower);
@@ -249,7 +202,7 @@ HWY_INLINE bool test_pack(const TrianglePack& pack, const FloatRay<mode, Bounds>
     return hits.open != 0;
 }
 
-/// A FloatRay as vectors over the lanes of a node.
+/// One of the prepared rays as the box tests take it, over the lanes of a node.
 template <uint32_t Width>
 struct BoxRay {
     using D = hn::CappedTag<float, Width>;
@@ -259,22 +212,23 @@ struct BoxRay {
     size_t plane_near_x, plane_near_y, plane_near_z, plane_far_x, plane_far_y, plane_far_z;
 
     template <Mode mode, class Bounds>
-    HWY_INLINE explicit BoxRay(const FloatRay<mode, Bounds>& ray) {
+    HWY_INLINE BoxRay(const FloatRays<mode, Bounds>& rays, size_t i) {
         const D d;
-        inverse_x = hn::Set(d, ray.inverse[0]);
-        inverse_y = hn::Set(d, ray.inverse[1]);
-        inverse_z = hn::Set(d, ray.inverse[2]);
-        near_x = hn::Set(d, ray.near_offset[0]);
-        near_y = hn::Set(d, ray.near_offset[1]);
-        near_z = hn::Set(d, ray.near_offset[2]);
-        far_x = hn::Set(d, ray.far_offset[0]);
-        far_y = hn::Set(d, ray.far_offset[1]);
-        far_z = hn::Set(d, ray.far_offset[2]);
-        t_min = hn::Set(d, ray.t_min);
+        inverse_x = hn::Set(d, rays.inverse[0][i]);
+        inverse_y = hn::Set(d, rays.inverse[1][i]);
+        inverse_z = hn::Set(d, rays.inverse[2][i]);
+        near_x = hn::Set(d, rays.near_offset[0][i]);
+        near_y = hn::Set(d, rays.near_offset[1][i]);
+        near_z = hn::Set(d, rays.near_offset[2][i]);
+        far_x = hn::Set(d, rays.far_offset[0][i]);
+        far_y = hn::Set(d, rays.far_offset[1][i]);
+        far_z = hn::Set(d, rays.far_offset[2][i]);
+        t_min = hn::Set(d, rays.t_min[i]);
         constexpr size_t kUpper = size_t{3} * Width;
-        plane_near_x = (ray.octant & 1) != 0 ? kUpper : 0;
-        plane_near_y = ((ray.octant & 2) != 0 ? kUpper : 0) + Width;
-        plane_near_z = ((ray.octant & 4) != 0 ? kUpper : 0) + size_t{2} * Width;
+        const size_t octant = rays.octant[i];
+        plane_near_x = (octant & 1) * kUpper;
+        plane_near_y = (octant >> 1 & 1) * kUpper + Width;
+        plane_near_z = (octant >> 2) * kUpper + size_t{2} * Width;
         plane_far_x = kUpper - plane_near_x;
         plane_far_y = kUpper + size_t{2} * Width - plane_near_y;
         plane_far_z = kUpper + size_t{4} * Width - plane_near_z;

@@ -45,7 +45,8 @@ struct WideChild {
         return {kLeafBit | (pack_count - 1) << kFirstBits | first_pack};
     }
     bool is_empty() const { return bits == kNoIndex; }
-    bool is_leaf() const { return (bits & kLeafBit) != 0 && !is_empty(); }
+    bool is_inner() const { return (bits & kLeafBit) == 0; }
+    bool is_leaf() const { return !is_inner() && !is_empty(); }
     uint32_t node() const { return bits; }
     uint32_t first_pack() const { return bits & ((1u << kFirstBits) - 1); }
     uint32_t pack_count() const { return ((bits >> kFirstBits) & 31) + 1; }

@@ -34,6 +34,105 @@ void any_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, std::span<const Ra
 
 #else
 
+/// The nearest hits of some rays, each known for sure, whose t is still to be computed: that is done for as
+/// many as a vector has lanes.
+template <Mode mode>
+class SureHits {
+public:
+    /// At most FloatRays::kCount, between two calls of write.
+    HWY_INLINE void add(const Ray& ray, const TrianglePack& pack, uint32_t lane, Hit& hit) {
+        for (int axis = 0; axis < 3; ++axis) {
+            origin_[axis][count_] = ray.origin[axis];
+            direction_[axis][count_] = ray.direction[axis];
+            for (int corner = 0; corner < 3; ++corner)
+                corners_[corner][axis][count_] = pack.corners[corner][axis][lane];
+        }
+        hit.prim = pack.prims[lane];
+        found_[count_++] = {&ray, &hit};
+    }
+    /// Sets the t of all that were added. What double leaves open goes to ClosestHit, in fast mode
+    /// everything.
+    HWY_INLINE void write(const Mesh& mesh) {
+        if constexpr (mode == Mode::Exact) {
+            const size_t lanes = hn::Lanes(D());
+            for (size_t i = 0; i < count_; i += lanes) set_t(i, std::min(lanes, count_ - i), mesh);
+        } else {
+            for (size_t i = 0; i < count_; ++i) decide(i, mesh);
+        }
+        count_ = 0;
+    }
+
+private:
+    using D = hn::CappedTag<double, 8>;
+    using V = hn::Vec<D>;
+    using DF = hn::Rebind<float, D>;
+    static constexpr size_t kCount = FloatRays<mode>::kCount;
+    struct Found {
+        const Ray* ray;
+        Hit* hit;
+    };
+
+    /// interval_of_t of filter.h, with its bounds; both ends rounded to the same float are the answer.
+    HWY_INLINE void set_t(size_t first, size_t count, const Mesh& mesh) {
+        const D d;
+        V a[3], e1[3], e2[3], dir[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            const V corner = load(corners_[0][axis], first);
+            a[axis] = hn::Sub(corner, load(origin_[axis], first));
+            e1[axis] = hn::Sub(load(corners_[1][axis], first), corner);
+            e2[axis] = hn::Sub(load(corners_[2][axis], first), corner);
+            dir[axis] = load(direction_[axis], first);
+        }
+        V numerator = hn::Zero(d), denominator = numerator, numerator_size = numerator,
+          denominator_size = numerator;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+            const V p = hn::Mul(e1[next], e2[last]), q = hn::Mul(e1[last], e2[next]);
+            const V n = hn::Sub(p, q), n_size = hn::Add(hn::Abs(p), hn::Abs(q));
+            numerator = hn::Add(numerator, hn::Mul(a[axis], n));
+            denominator = hn::Add(denominator, hn::Mul(dir[axis], n));
+            numerator_size = hn::Add(numerator_size, hn::Mul(hn::Abs(a[axis]), n_size));
+            denominator_size = hn::Add(denominator_size, hn::Mul(hn::Abs(dir[axis]), n_size));
+        }
+        constexpr double kUnit = FilterBounds::kTermUnit;
+        const V numerator_error = hn::Mul(hn::Set(d, 8.0 * kUnit), numerator_size);
+        const V denominator_error = hn::Mul(hn::Set(d, 7.0 * kUnit), denominator_size);
+        const V rest = hn::Sub(hn::Abs(denominator), denominator_error);
+        const V t = hn::Div(numerator, denominator), t_size = hn::Abs(t);
+        const V quotient = hn::Div(hn::Add(numerator_error, hn::Mul(t_size, denominator_error)), rest);
+        const V error =
+            hn::Add(hn::Mul(quotient, hn::Set(d, 1.0 + 0x1p-40)), hn::Mul(hn::Set(d, 2.0 * kUnit), t_size));
+        const DF df;
+        const auto lower = hn::DemoteTo(df, hn::Sub(t, error)), upper = hn::DemoteTo(df, hn::Add(t, error));
+        HWY_ALIGN float lowers[8], uppers[8];
+        HWY_ALIGN double rests[8];
+        hn::Store(lower, df, lowers);
+        hn::Store(upper, df, uppers);
+        hn::Store(rest, d, rests);
+        for (size_t i = 0; i < count; ++i) {
+            if (HWY_LIKELY(rests[i] > 0.0 && lowers[i] == uppers[i])) {
+                found_[first + i].hit->t = uppers[i];
+            } else {
+                decide(first + i, mesh);
+            }
+        }
+    }
+    HWY_INLINE V load(const float* from, size_t first) const {
+        return hn::PromoteTo(D(), hn::LoadU(DF(), from + first));
+    }
+    HWY_NOINLINE void decide(size_t i, const Mesh& mesh) {
+        NoCount count;
+        ClosestHit<mode> closest(*found_[i].ray);
+        const uint32_t prim = found_[i].hit->prim;
+        closest.test(mesh.triangle(prim), prim, count);
+        *found_[i].hit = closest.hit(mesh);
+    }
+
+    size_t count_ = 0;
+    HWY_ALIGN float origin_[3][kCount], direction_[3][kCount], corners_[3][3][kCount];
+    Found found_[kCount];
+};
+
 /// The nearest hit so far: as an interval of t as long as floats decide the order, by ClosestHit from the
 /// first time they do not.
 template <Mode mode>
@@ -56,7 +155,7 @@ struct Search {
                 continue;
             }
             const float t_lower = hits.lower[i], t_upper = hits.upper[i];
-            if (t_upper < ray.t_min || hit_pack.prims[i] == prim) continue;
+            if (hit_pack.prims[i] == prim) continue;
             const bool is_in_range = t_lower >= ray.t_min && t_upper <= ray.t_max;
             if (is_in_range && (prim == kNoIndex || t_upper < lower)) {
                 pack = &hit_pack;
@@ -82,19 +181,15 @@ struct Search {
             if (double(limit) < bound) limit = std::nextafter(limit, std::numeric_limits<float>::infinity());
         }
     }
-    HWY_INLINE Hit hit(const Mesh& mesh) {
-        if (!decided) {
-            if (prim == kNoIndex) return {};
-            if constexpr (mode == Mode::Exact) {
-                const Interval t = interval_of_t<FilterBounds>(ray, pack->triangle(lane));
-                const float t_lower = static_cast<float>(t.lower), t_upper = static_cast<float>(t.upper);
-                if (t_lower == t_upper) return {t_upper, prim};
-            }
-            NoCount count;
-            decided.emplace(ray);
-            decided->test(pack->triangle(lane), prim, count);
+    /// Sets the hit, or adds it to those whose t is still to be computed.
+    HWY_INLINE void finish(const Mesh& mesh, Hit& hit, SureHits<mode>& sure) const {
+        if (decided) {
+            hit = decided->hit(mesh);
+        } else if (prim != kNoIndex) {
+            sure.add(ray, *pack, lane, hit);
+        } else {
+            hit = {};
         }
-        return decided->hit(mesh);
     }
 };
 
@@ -109,11 +204,9 @@ struct Occlusion {
     HWY_INLINE bool is_hit(const TrianglePack& pack, const PackHits& hits) {
         for (uint32_t open = hits.open; open != 0; open &= open - 1) {
             const uint32_t i = static_cast<uint32_t>(std::countr_zero(open));
-            if ((hits.sure >> i & 1) != 0) {
-                if (hits.lower[i] >= ray.t_min && hits.upper[i] <= ray.t_max) return true;
-                if (hits.upper[i] < ray.t_min) continue;
-            }
-            if (decide(pack, i)) return true;
+            const bool is_sure =
+                (hits.sure >> i & 1) != 0 && hits.lower[i] >= ray.t_min && hits.upper[i] <= ray.t_max;
+            if (is_sure || decide(pack, i)) return true;
         }
         return false;
     }
@@ -124,47 +217,103 @@ struct Occlusion {
     }
 };
 
+#if HWY_TARGET > HWY_AVX3
+/// Lanes of the set bits of a mask, ascending; the rest is 0.
+struct LanesOfMask {
+    uint8_t lanes[256][8]{};
+    constexpr LanesOfMask() {
+        for (uint32_t mask = 0; mask < 256; ++mask) {
+            uint32_t count = 0;
+            for (uint8_t lane = 0; lane < 8; ++lane)
+                if ((mask >> lane & 1) != 0) lanes[mask][count++] = lane;
+        }
+    }
+};
+alignas(64) constexpr LanesOfMask kLanesOfMask;
+#endif
+
+/// The lanes of a mask first. Highway 1.0's own is slow where the processor has no such instruction.
+template <class D>
+HWY_INLINE hn::Vec<D> lanes_first(D d, hn::Vec<D> v, [[maybe_unused]] hn::Mask<D> mask,
+                                  [[maybe_unused]] uint32_t bits) {
+#if HWY_TARGET <= HWY_AVX3
+    static_cast<void>(d);
+    return hn::Compress(v, mask);
+#else
+    const hn::RebindToUnsigned<D> du;
+    const hn::Rebind<uint8_t, D> d8;
+    const auto lanes = hn::PromoteTo(du, hn::LoadU(d8, kLanesOfMask.lanes[bits]));
+    return hn::TableLookupLanes(v, hn::IndicesFromVec(d, lanes));
+#endif
+}
+
 /// Children to be visited, the next one last, with the parameters at which the ray enters them. A node adds
-/// at most its width, less the one that is visited at once; vectors are written whole.
+/// at most its width; vectors are written whole. At the bottom stands an empty child. Its size is kept beside
+/// it, in a register.
 template <uint32_t Width>
 struct Stack {
-    static constexpr uint32_t kSize = (WideBvh<Width>::kMaxDepth + 1) * (Width - 1) + Width;
-    uint32_t children[kSize];
-    float entries[kSize];
+    static constexpr uint32_t kSize = (WideBvh<Width>::kMaxDepth + 1) * (Width - 1) + 2 * Width;
+    HWY_ALIGN uint32_t children[kSize];
+    HWY_ALIGN float entries[kSize];
+
+    HWY_INLINE Stack() {
+        children[0] = kNoIndex;
+        entries[0] = -std::numeric_limits<float>::infinity();
+    }
+    HWY_INLINE WideChild pop(uint32_t& count) const { return {children[--count]}; }
+    /// Removes what is entered beyond a limit; what is left.
+    HWY_INLINE uint32_t prune(float limit, uint32_t count) {
+        const hn::CappedTag<float, Width> d;
+        const hn::RebindToUnsigned<decltype(d)> du;
+        const auto most = hn::Set(d, limit);
+        uint32_t kept = 0;
+        for (uint32_t first = 0; first < count; first += static_cast<uint32_t>(hn::Lanes(d))) {
+            const auto entry = hn::LoadU(d, entries + first);
+            const auto child = hn::LoadU(du, children + first);
+            const auto is_kept = hn::And(hn::Le(entry, most), hn::FirstN(d, count - first));
+            const uint32_t bits = bits_of(d, is_kept);
+            hn::StoreU(lanes_first(d, entry, is_kept, bits), d, entries + kept);
+            hn::StoreU(lanes_first(du, child, hn::RebindMask(du, is_kept), bits), du, children + kept);
+            kept += static_cast<uint32_t>(std::popcount(bits));
+        }
+        return kept;
+    }
 };
 
 /// Adds the children whose boxes the ray meets to the stack, but for the nearest in the order of the ray's
-/// octant, which is returned; empty if there is none.
+/// octant, which is returned; the one on top of the stack if there is none. The nearest does not wait for
+/// the stack's memory.
 template <uint32_t Width>
-HWY_INLINE WideChild push_children(const typename WideBvh<Width>::Node& node, const BoxRay<Width>& ray,
-                                   uint32_t octant, float limit, Stack<Width>& stack, uint32_t& count) {
+HWY_INLINE WideChild next_child(const typename WideBvh<Width>::Node& node, const BoxRay<Width>& ray,
+                                uint32_t octant, float limit, Stack<Width>& stack, uint32_t& count) {
     const hn::CappedTag<float, Width> d;
     using V = hn::Vec<decltype(d)>;
     const float* const planes = node.lower[0];
     if constexpr (hn::MaxLanes(d) == Width) {
         const hn::RebindToUnsigned<decltype(d)> du;
-        const V entry = ray.entry(planes);
-        const auto is_met = hn::Le(entry, ray.exit(planes, limit));
-        const uint32_t met = bits_of(d, is_met);
-        if ((met & (met - 1)) == 0) return met == 0 ? WideChild{} : node.children[std::countr_zero(met)];
+        const V entry = ray.entry(planes), exit = ray.exit(planes, limit);
+        const uint32_t met = bits_of(d, hn::Le(entry, exit));
+        if (met == 0) return stack.pop(count);
+        if ((met & (met - 1)) == 0) return node.children[std::countr_zero(met)];
         // The lanes back to front.
-        constexpr uint32_t kBits = Width == 4 ? 2 : 3;
+        constexpr uint32_t kBits = Width == 4 ? 2 : 3, kLast = Width - 1;
         uint32_t order;
         std::memcpy(&order, &node.order[octant * kBits * Width / 8], sizeof(order));
         HWY_ALIGN static constexpr uint32_t kShifts[8] = {7 * kBits, 6 * kBits, 5 * kBits, 4 * kBits,
                                                           3 * kBits, 2 * kBits, kBits,     0};
         const auto lanes =
-            hn::And(hn::Shr(hn::Set(du, order), hn::LoadU(du, kShifts + 8 - Width)), hn::Set(du, Width - 1));
+            hn::And(hn::Shr(hn::Set(du, order), hn::LoadU(du, kShifts + 8 - Width)), hn::Set(du, kLast));
         const auto indices = hn::IndicesFromVec(d, lanes);
-        const V infinity = hn::Set(d, std::numeric_limits<float>::infinity());
-        const V entries = hn::TableLookupLanes(hn::IfThenElse(is_met, entry, infinity), indices);
-        const auto children =
+        const V entries = hn::TableLookupLanes(entry, indices), exits = hn::TableLookupLanes(exit, indices);
+        const V children =
             hn::TableLookupLanes(hn::BitCast(d, hn::Load(du, &node.children[0].bits)), indices);
-        const auto is_pushed = hn::Lt(entries, infinity);
-        hn::StoreU(hn::Compress(entries, is_pushed), d, stack.entries + count);
-        hn::StoreU(hn::BitCast(du, hn::Compress(children, is_pushed)), du, stack.children + count);
-        count += static_cast<uint32_t>(std::popcount(met)) - 1;
-        return {stack.children[count]};
+        const auto is_met = hn::Le(entries, exits);
+        const uint32_t ranks = bits_of(d, is_met);
+        hn::StoreU(lanes_first(d, entries, is_met, ranks), d, stack.entries + count);
+        hn::StoreU(hn::BitCast(du, lanes_first(d, children, is_met, ranks)), du, stack.children + count);
+        count += static_cast<uint32_t>(std::popcount(ranks)) - 1;
+        const uint32_t nearest = Width - static_cast<uint32_t>(std::bit_width(ranks));
+        return node.children[order >> (kBits * nearest) & kLast];
     } else {
         HWY_ALIGN float entries[Width];
         uint32_t met = 0;
@@ -177,117 +326,126 @@ HWY_INLINE WideChild push_children(const typename WideBvh<Width>::Node& node, co
             const uint32_t lane = node.lane_at(octant, rank - 1);
             if ((met >> lane & 1) == 0) continue;
             met &= ~(1u << lane);
-            if (met == 0) return node.children[lane];
             stack.children[count] = node.children[lane].bits;
             stack.entries[count++] = entries[lane];
         }
-        return {};
+        return stack.pop(count);
     }
 }
 
 /// The same in any order, without parameters: any hit will do.
 template <uint32_t Width>
-HWY_INLINE WideChild push_unordered(const typename WideBvh<Width>::Node& node, const BoxRay<Width>& ray,
+HWY_INLINE WideChild next_unordered(const typename WideBvh<Width>::Node& node, const BoxRay<Width>& ray,
                                     float limit, uint32_t* stack, uint32_t& count) {
     const hn::CappedTag<float, Width> d;
     const float* const planes = node.lower[0];
+    uint32_t met = 0;
+    for (size_t first = 0; first < Width; first += hn::Lanes(d))
+        met |= bits_of(d, hn::Le(ray.entry(planes + first), ray.exit(planes + first, limit))) << first;
+    if (met == 0) return {stack[--count]};
+    const WideChild nearest = node.children[std::countr_zero(met)];
+    met &= met - 1;
+    if (met == 0) return nearest;
     if constexpr (hn::MaxLanes(d) == Width) {
         const hn::RebindToUnsigned<decltype(d)> du;
-        const auto is_met = hn::Le(ray.entry(planes), ray.exit(planes, limit));
-        const uint32_t met = bits_of(d, is_met);
-        if (met == 0) return {};
-        if ((met & (met - 1)) == 0) return node.children[std::countr_zero(met)];
         const auto children = hn::Load(du, &node.children[0].bits);
-        hn::StoreU(hn::Compress(children, hn::RebindMask(du, is_met)), du, stack + count);
-        count += static_cast<uint32_t>(std::popcount(met)) - 1;
-        return {stack[count]};
+        const uint8_t bits = static_cast<uint8_t>(met);
+        hn::StoreU(lanes_first(du, children, hn::LoadMaskBits(du, &bits), met), du, stack + count);
+        count += static_cast<uint32_t>(std::popcount(met));
     } else {
-        uint32_t met = 0;
-        for (size_t first = 0; first < Width; first += hn::Lanes(d))
-            met |= bits_of(d, hn::Le(ray.entry(planes + first), ray.exit(planes + first, limit))) << first;
-        if (met == 0) return {};
-        for (; (met & (met - 1)) != 0; met &= met - 1)
-            stack[count++] = node.children[std::countr_zero(met)].bits;
-        return node.children[std::countr_zero(met)];
+        for (; met != 0; met &= met - 1) stack[count++] = node.children[std::countr_zero(met)].bits;
     }
+    return nearest;
 }
 
 template <Mode mode, uint32_t Width>
-HWY_INLINE void find_closest(const WideBvh<Width>& bvh, const FloatRay<mode>& ray, Search<mode>& search) {
-    const BoxRay<Width> box_ray(ray);
+HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>& rays, size_t i,
+                               Search<mode>& search) {
+    const BoxRay<Width> box_ray(rays, i);
+    const FloatRay<mode> ray(rays, i);
     const auto* const nodes = bvh.nodes.data();
     const TrianglePack* const packs = bvh.packs.data();
-    const uint32_t octant = ray.octant;
+    const uint32_t octant = rays.octant[i];
     Stack<Width> stack;
-    uint32_t count = 0;
+    uint32_t count = 1;
     WideChild child = WideChild::inner(0);
     while (true) {
-        while (!child.is_leaf()) {
-            child = push_children<Width>(nodes[child.node()], box_ray, octant, search.limit, stack, count);
-            if (child.is_empty()) break;
+        while (child.is_inner())
+            child = next_child<Width>(nodes[child.node()], box_ray, octant, search.limit, stack, count);
+        if (child.is_empty()) return;
+        const TrianglePack* pack = packs + child.first_pack();
+        const TrianglePack* const end = pack + child.pack_count();
+        const float limit = search.limit;
+        for (; pack != end; ++pack) {
+            PackHits hits;
+            if (test_pack(*pack, ray, search.limit, hits)) search.keep(*pack, hits);
         }
-        if (!child.is_empty()) {
-            const TrianglePack* pack = packs + child.first_pack();
-            const TrianglePack* const end = pack + child.pack_count();
-            for (; pack != end; ++pack) {
-                PackHits hits;
-                if (test_pack(*pack, ray, search.limit, hits)) search.keep(*pack, hits);
-            }
-        }
-        do {
-            if (count == 0) return;
-            --count;
-        } while (stack.entries[count] > search.limit);
-        child = {stack.children[count]};
+        if (search.limit < limit) count = stack.prune(search.limit, count);
+        child = stack.pop(count);
     }
 }
 
 template <Mode mode, uint32_t Width>
-HWY_INLINE bool find_any(const WideBvh<Width>& bvh, const FloatRay<mode>& ray, Occlusion<mode>& occlusion) {
-    const BoxRay<Width> box_ray(ray);
+HWY_NOINLINE bool find_any(const WideBvh<Width>& bvh, const FloatRays<mode>& rays, size_t i,
+                           Occlusion<mode>& occlusion) {
+    const BoxRay<Width> box_ray(rays, i);
+    const FloatRay<mode> ray(rays, i);
     const auto* const nodes = bvh.nodes.data();
     const TrianglePack* const packs = bvh.packs.data();
-    const float limit = ray.t_max;
-    uint32_t stack[Stack<Width>::kSize];
-    uint32_t count = 0;
+    const float limit = rays.t_max[i];
+    HWY_ALIGN uint32_t stack[Stack<Width>::kSize];
+    stack[0] = kNoIndex;
+    uint32_t count = 1;
     WideChild child = WideChild::inner(0);
     while (true) {
-        while (!child.is_leaf()) {
-            child = push_unordered<Width>(nodes[child.node()], box_ray, limit, stack, count);
-            if (child.is_empty()) break;
+        while (child.is_inner())
+            child = next_unordered<Width>(nodes[child.node()], box_ray, limit, stack, count);
+        if (child.is_empty()) return false;
+        const TrianglePack* pack = packs + child.first_pack();
+        const TrianglePack* const end = pack + child.pack_count();
+        for (; pack != end; ++pack) {
+            PackHits hits;
+            if (test_pack(*pack, ray, limit, hits) && occlusion.is_hit(*pack, hits)) return true;
         }
-        if (!child.is_empty()) {
-            const TrianglePack* pack = packs + child.first_pack();
-            const TrianglePack* const end = pack + child.pack_count();
-            for (; pack != end; ++pack) {
-                PackHits hits;
-                if (test_pack(*pack, ray, limit, hits) && occlusion.is_hit(*pack, hits)) return true;
-            }
-        }
-        if (count == 0) return false;
         child = {stack[--count]};
     }
 }
 
-constexpr size_t kStopInterval = 64;  ///< rays from one look at task.stop to the next
+/// Calls trace(prepared rays, i, number of the ray) for each ray that floats can be used for, plain(number)
+/// for the others, and after some rays end_of_part().
+template <Mode mode, uint32_t Width, class Trace, class Plain, class EndOfPart>
+HWY_INLINE void for_each_ray(const WideBvh<Width>& bvh, std::span<const Ray> rays, const Task& task,
+                             Trace&& trace, Plain&& plain, EndOfPart&& end_of_part) {
+    const FloatScene scene(bvh.nodes[0].bounds());
+    for (size_t first = 0; first < rays.size() && !task.stopped(); first += FloatRays<mode>::kCount) {
+        const size_t count = std::min(FloatRays<mode>::kCount, rays.size() - first);
+        const FloatRays<mode> prepared(rays.subspan(first, count), scene);
+        for (size_t i = 0; i < count; ++i) {
+            if (HWY_LIKELY(prepared.usable[i] != 0)) {
+                trace(prepared, i, first + i);
+            } else {
+                plain(first + i);
+            }
+        }
+        end_of_part();
+    }
+}
 
 template <Mode mode, uint32_t Width>
 HWY_NOINLINE void closest_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, std::span<const Ray> rays,
                                   std::span<Hit> hits, const Task& task) {
     std::ranges::fill(hits, Hit{});
     if (bvh.nodes.empty()) return;
-    const FloatScene scene(bvh.nodes[0].bounds());
-    for (size_t i = 0; i < rays.size(); ++i) {
-        if (i % kStopInterval == 0 && task.stopped()) return;
-        const FloatRay<mode> ray(rays[i], scene);
-        if (HWY_LIKELY(ray.is_usable)) {
-            Search<mode> search(rays[i]);
-            find_closest<mode, Width>(bvh, ray, search);
-            hits[i] = search.hit(mesh);
-        } else {
-            hits[i] = plain_closest_hit<mode>(bvh, mesh, rays[i], task);
-        }
-    }
+    SureHits<mode> sure;
+    for_each_ray<mode>(
+        bvh, rays, task,
+        [&](const FloatRays<mode>& prepared, size_t i, size_t number) {
+            Search<mode> search(rays[number]);
+            find_closest<mode, Width>(bvh, prepared, i, search);
+            search.finish(mesh, hits[number], sure);
+        },
+        [&](size_t number) { hits[number] = plain_closest_hit<mode>(bvh, mesh, rays[number], task); },
+        [&] { sure.write(mesh); });
 }
 
 template <Mode mode, uint32_t Width>
@@ -295,17 +453,14 @@ HWY_NOINLINE void any_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, std::
                               std::span<uint8_t> occluded, const Task& task) {
     std::ranges::fill(occluded, uint8_t{0});
     if (bvh.nodes.empty()) return;
-    const FloatScene scene(bvh.nodes[0].bounds());
-    for (size_t i = 0; i < rays.size(); ++i) {
-        if (i % kStopInterval == 0 && task.stopped()) return;
-        const FloatRay<mode> ray(rays[i], scene);
-        if (HWY_LIKELY(ray.is_usable)) {
-            Occlusion<mode> occlusion(rays[i]);
-            occluded[i] = find_any<mode, Width>(bvh, ray, occlusion) ? 1 : 0;
-        } else {
-            occluded[i] = plain_any_hit<mode>(bvh, mesh, rays[i], task) ? 1 : 0;
-        }
-    }
+    for_each_ray<mode>(
+        bvh, rays, task,
+        [&](const FloatRays<mode>& prepared, size_t i, size_t number) {
+            Occlusion<mode> occlusion(rays[number]);
+            occluded[number] = find_any<mode, Width>(bvh, prepared, i, occlusion) ? 1 : 0;
+        },
+        [&](size_t number) { occluded[number] = plain_any_hit<mode>(bvh, mesh, rays[number], task) ? 1 : 0; },
+        [] {});
 }
 
 #endif
