@@ -78,15 +78,20 @@ struct Sheared {
     template <Mode mode, class Bounds>
     HWY_INLINE Sheared(const TrianglePack& pack, const FloatRay<mode, Bounds>& ray) {
         const D4 d;
-        az = hn::Sub(hn::Load(d, pack.corners[0][ray.z]), ray.origin_z);
-        bz = hn::Sub(hn::Load(d, pack.corners[1][ray.z]), ray.origin_z);
-        cz = hn::Sub(hn::Load(d, pack.corners[2][ray.z]), ray.origin_z);
-        ax = shear<mode>(ray.shear_x, az, hn::Sub(hn::Load(d, pack.corners[0][ray.x]), ray.origin_x));
-        bx = shear<mode>(ray.shear_x, bz, hn::Sub(hn::Load(d, pack.corners[1][ray.x]), ray.origin_x));
-        cx = shear<mode>(ray.shear_x, cz, hn::Sub(hn::Load(d, pack.corners[2][ray.x]), ray.origin_x));
-        ay = shear<mode>(ray.shear_y, az, hn::Sub(hn::Load(d, pack.corners[0][ray.y]), ray.origin_y));
-        by = shear<mode>(ray.shear_y, bz, hn::Sub(hn::Load(d, pack.corners[1][ray.y]), ray.origin_y));
-        cy = shear<mode>(ray.shear_y, cz, hn::Sub(hn::Load(d, pack.corners[2][ray.y]), ray.origin_y));
+        // Not nine addresses.
+        const float* const x = pack.corners[0][ray.x];
+        const float* const y = pack.corners[0][ray.y];
+        const float* const z = pack.corners[0][ray.z];
+        constexpr size_t kCorner = sizeof(pack.corners[0]) / sizeof(float);
+        az = hn::Sub(hn::Load(d, z), ray.origin_z);
+        bz = hn::Sub(hn::Load(d, z + kCorner), ray.origin_z);
+        cz = hn::Sub(hn::Load(d, z + 2 * kCorner), ray.origin_z);
+        ax = shear<mode>(ray.shear_x, az, hn::Sub(hn::Load(d, x), ray.origin_x));
+        bx = shear<mode>(ray.shear_x, bz, hn::Sub(hn::Load(d, x + kCorner), ray.origin_x));
+        cx = shear<mode>(ray.shear_x, cz, hn::Sub(hn::Load(d, x + 2 * kCorner), ray.origin_x));
+        ay = shear<mode>(ray.shear_y, az, hn::Sub(hn::Load(d, y), ray.origin_y));
+        by = shear<mode>(ray.shear_y, bz, hn::Sub(hn::Load(d, y + kCorner), ray.origin_y));
+        cy = shear<mode>(ray.shear_y, cz, hn::Sub(hn::Load(d, y + 2 * kCorner), ray.origin_y));
         u = hn::MulSub(cx, by, hn::Mul(cy, bx));
         v = hn::MulSub(ax, cy, hn::Mul(ay, cx));
         w = hn::MulSub(bx, ay, hn::Mul(by, ax));
