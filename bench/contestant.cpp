@@ -47,8 +47,10 @@ Contestant structure_in(Mode mode, const std::string& recipe, const Structure& s
     one.closest_hits = [structure, &mesh, mode, &task](std::span<const Ray> rays, std::span<Hit> hits) {
         structure.closest_hits(mesh, rays, hits, mode, task);
     };
-    one.packets = [cast = one.closest_hits](std::span<const Ray> rays, std::span<const uint32_t> /*pixels*/,
-                                            std::span<Hit> hits) { cast(rays, hits); };
+    one.packets = [structure, &mesh, mode, &task](std::span<const Ray> rays,
+                                                  std::span<const uint32_t> /*pixels*/, std::span<Hit> hits) {
+        structure.closest_hits_coherent(mesh, rays, hits, mode, task);
+    };
     one.any_hits = [structure, &mesh, mode, &task](std::span<const Ray> rays, std::span<uint8_t> occluded) {
         structure.any_hits(mesh, rays, occluded, mode, task);
     };

@@ -97,6 +97,26 @@ double reach(const Box& box, const Camera& camera) {
     return largest;
 }
 
+TEST(CameraRaster, GivesTheBitsOfCameraRay) {
+    constexpr int kWidth = 37, kHeight = 23;
+    for (const bool orthographic : {false, true}) {
+        Camera camera;
+        camera.eye = {0.3f, -7.1f, 2.7f};
+        camera.orthographic = orthographic;
+        const CameraFrame frame = camera_frame(camera, double(kWidth) / kHeight);
+        std::vector<uint32_t> pixels;
+        for (uint32_t pixel = 0; pixel < kWidth * kHeight; pixel += 3) pixels.push_back(pixel);
+        std::vector<Ray> rays(pixels.size());
+        CameraRaster(frame, kWidth, kHeight).rays_through(pixels, rays);
+        for (size_t i = 0; i < pixels.size(); ++i) {
+            const Ray ray =
+                camera_ray(frame, pixels[i] % kWidth + 0.5, pixels[i] / kWidth + 0.5, kWidth, kHeight);
+            EXPECT_EQ(rays[i].origin, ray.origin);
+            EXPECT_EQ(rays[i].direction, ray.direction);
+        }
+    }
+}
+
 TEST(FitCamera, FramesAllCornersWithoutWaste) {
     const Box boxes[] = {
         {Vec3(-1.0f), Vec3(1.0f)},

@@ -33,6 +33,7 @@ PixelTracer::PixelTracer(const Mesh& mesh, const Box& bounds, Structure structur
       structure_(std::move(structure)),
       settings_(settings),
       frame_(camera_frame(settings.camera, static_cast<double>(settings.width) / settings.height)),
+      raster_(frame_, settings.width, settings.height),
       bounds_(bounds),
       diagonal_(std::sqrt(glm::dot(bounds.extent(), bounds.extent()))) {}
 
@@ -44,17 +45,21 @@ bool PixelTracer::cast(uint32_t sample, PixelBatch& batch, bool counted, const T
     batch.counts.resize(counted ? count : 0);
     batch.colors.clear();
     batch.ao_rays.clear();
-    for (size_t i = 0; i < count; ++i) {
-        const uint32_t pixel = batch.pixels[i];
-        const Vec2 offset = pixel_offset(pixel, sample);
-        const double x = static_cast<double>(pixel % width) + static_cast<double>(offset.x);
-        const double y = static_cast<double>(pixel / width) + static_cast<double>(offset.y);
-        batch.rays[i] = camera_ray(frame_, x, y, settings_.width, settings_.height);
+    if (sample == 0) {
+        raster_.rays_through(batch.pixels, batch.rays);
+    } else {
+        for (size_t i = 0; i < count; ++i) {
+            const uint32_t pixel = batch.pixels[i];
+            const Vec2 offset = pixel_offset(pixel, sample);
+            const double x = static_cast<double>(pixel % width) + static_cast<double>(offset.x);
+            const double y = static_cast<double>(pixel / width) + static_cast<double>(offset.y);
+            batch.rays[i] = camera_ray(frame_, x, y, settings_.width, settings_.height);
+        }
     }
     if (counted) {
         structure_.closest_hits_counted(mesh_, batch.rays, batch.hits, batch.counts, settings_.mode, task);
     } else {
-        structure_.closest_hits(mesh_, batch.rays, batch.hits, settings_.mode, task);
+        structure_.closest_hits_coherent(mesh_, batch.rays, batch.hits, settings_.mode, task);
     }
     return !task.stopped();
 }

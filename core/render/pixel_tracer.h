@@ -48,6 +48,7 @@ private:
     Structure structure_;
     TraceSettings settings_;
     CameraFrame frame_;
+    CameraRaster raster_;
     Box bounds_;
     double diagonal_;  ///< of the box, in world units
 };

@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/base/timer.h"
 #include "core/render/film.h"
+#include "core/render/trace_schedule.h"
 
 namespace boxwood {
 
@@ -22,13 +23,13 @@ void for_each_tile(int width, int height, const std::function<void(PixelBatch&)>
     parallel_for(tile_count, 8, [&](size_t begin, size_t end) {
         PixelBatch batch;
         for (size_t tile = begin; tile < end; ++tile) {
-            const int left = static_cast<int>(tile) % columns * kTileSize;
-            const int top = static_cast<int>(tile) / columns * kTileSize;
+            const TraceTile corner{static_cast<int>(tile) % columns * kTileSize,
+                                   static_cast<int>(tile) / columns * kTileSize};
             batch.pixels.clear();
-            for (int y = top; y < std::min(top + kTileSize, height); ++y)
-                for (int x = left; x < std::min(left + kTileSize, width); ++x)
-                    batch.pixels.push_back(static_cast<uint32_t>(y) * static_cast<uint32_t>(width) +
-                                           static_cast<uint32_t>(x));
+            for_each_pixel(corner, kTileSize, 1, width, height, [&](int x, int y) {
+                batch.pixels.push_back(static_cast<uint32_t>(y) * static_cast<uint32_t>(width) +
+                                       static_cast<uint32_t>(x));
+            });
             body(batch);
         }
     });

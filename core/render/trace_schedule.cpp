@@ -34,13 +34,10 @@ void list_pixels(const TracePass& pass, const TraceTile& tile, int width, int he
     pixels.clear();
     const bool refines = !pass.counting && pass.sample == 0 && pass.step < kCoarsestStep;
     const int coarser = 2 * pass.step;
-    for (int y = tile.y; y < std::min(tile.y + pass.tile_size, height); y += pass.step) {
-        for (int x = tile.x; x < std::min(tile.x + pass.tile_size, width); x += pass.step) {
-            if (refines && x % coarser == 0 && y % coarser == 0) continue;
-            pixels.push_back(static_cast<uint32_t>(y) * static_cast<uint32_t>(width) +
-                             static_cast<uint32_t>(x));
-        }
-    }
+    for_each_pixel(tile, pass.tile_size, pass.step, width, height, [&](int x, int y) {
+        if (refines && x % coarser == 0 && y % coarser == 0) return;
+        pixels.push_back(static_cast<uint32_t>(y) * static_cast<uint32_t>(width) + static_cast<uint32_t>(x));
+    });
 }
 
 }  // namespace boxwood

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -34,7 +35,23 @@ struct TraceTile {
 /// Tiles that cover the picture, from its middle outwards.
 std::vector<TraceTile> tiles_from_middle(int width, int height, int tile_size);
 
-/// The pass's pixels in that tile, y * width + x, row by row; replaces what is in `pixels`.
+/// Neighbours that are cast together stand in blocks of so many traced pixels along a side.
+inline constexpr int kBlock = 4;
+
+/// Calls visit(x, y) for every step-th pixel of a tile, block by block, in each row by row. The tile may
+/// stick out of the picture.
+template <class Visit>
+void for_each_pixel(const TraceTile& tile, int tile_size, int step, int width, int height, Visit&& visit) {
+    const int side = kBlock * step;
+    const int right = std::min(tile.x + tile_size, width), bottom = std::min(tile.y + tile_size, height);
+    for (int top = tile.y; top < bottom; top += side)
+        for (int left = tile.x; left < right; left += side)
+            for (int y = top; y < std::min(top + side, bottom); y += step)
+                for (int x = left; x < std::min(left + side, right); x += step) visit(x, y);
+}
+
+/// The pass's pixels in that tile, y * width + x, in the order of for_each_pixel; replaces what is in
+/// `pixels`.
 void list_pixels(const TracePass& pass, const TraceTile& tile, int width, int height,
                  std::vector<uint32_t>& pixels);
 

@@ -41,6 +41,22 @@ Vec3 to_finite_float(const DVec3& v) {
     return {to_finite_float(v.x), to_finite_float(v.y), to_finite_float(v.z)};
 }
 
+DVec3 column_offset(const CameraFrame& frame, double x, int width) {
+    return (2.0 * x / width - 1.0) * frame.half_width * frame.right;
+}
+
+DVec3 row_offset(const CameraFrame& frame, double y, int height) {
+    return (1.0 - 2.0 * y / height) * frame.half_height * frame.up;
+}
+
+/// Through a point of the image plane, `offset` from its middle.
+Ray ray_at(const CameraFrame& frame, const DVec3& offset) {
+    Ray ray;
+    ray.origin = Vec3(frame.orthographic ? frame.eye + offset : frame.eye);
+    ray.direction = Vec3(frame.orthographic ? frame.forward : frame.forward + offset);
+    return ray;
+}
+
 }  // namespace
 
 CameraFrame camera_frame(const Camera& camera, double aspect) {
@@ -60,13 +76,18 @@ CameraFrame camera_frame(const Camera& camera, double aspect) {
 }
 
 Ray camera_ray(const CameraFrame& frame, double x, double y, int width, int height) {
-    const double u = 2.0 * x / width - 1.0;
-    const double v = 1.0 - 2.0 * y / height;
-    const DVec3 offset = u * frame.half_width * frame.right + v * frame.half_height * frame.up;
-    Ray ray;
-    ray.origin = Vec3(frame.orthographic ? frame.eye + offset : frame.eye);
-    ray.direction = Vec3(frame.orthographic ? frame.forward : frame.forward + offset);
-    return ray;
+    return ray_at(frame, column_offset(frame, x, width) + row_offset(frame, y, height));
+}
+
+CameraRaster::CameraRaster(const CameraFrame& frame, int width, int height) : frame_(frame) {
+    for (int x = 0; x < width; ++x) columns_.push_back(column_offset(frame, x + 0.5, width));
+    for (int y = 0; y < height; ++y) rows_.push_back(row_offset(frame, y + 0.5, height));
+}
+
+void CameraRaster::rays_through(std::span<const uint32_t> pixels, std::span<Ray> rays) const {
+    const auto width = static_cast<uint32_t>(columns_.size());
+    for (size_t i = 0; i < pixels.size(); ++i)
+        rays[i] = ray_at(frame_, columns_[pixels[i] % width] + rows_[pixels[i] / width]);
 }
 
 Camera fit_camera(const Box& box, float fov, const Vec3& up) {

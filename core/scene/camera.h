@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "core/base/box.h"
 #include "core/base/ray.h"
 #include "core/base/vec.h"
@@ -34,6 +38,20 @@ CameraFrame camera_frame(const Camera& camera, double aspect);
 /// 0.5. direction = forward + (2x/w - 1) tan(fov/2) aspect right + (1 - 2y/h) tan(fov/2) up, in double,
 /// rounded once to float, not normalised.
 Ray camera_ray(const CameraFrame& frame, double x, double y, int width, int height);
+
+/// camera_ray for the pixel centres of a picture, with what depends on the column or the row alone computed
+/// once: the same bits.
+class CameraRaster {
+public:
+    CameraRaster(const CameraFrame& frame, int width, int height);
+
+    /// For pixels y * width + x. rays.size() == pixels.size().
+    void rays_through(std::span<const uint32_t> pixels, std::span<Ray> rays) const;
+
+private:
+    CameraFrame frame_;
+    std::vector<DVec3> columns_, rows_;  ///< parts of the offset from the picture's middle
+};
 
 /// A camera that sees the whole box from direction (0.55, 0.45, 0.7), y up (or z up), with the given field of
 /// view.

@@ -38,6 +38,13 @@ concept TracesBatches = requires(const S& s, const Mesh& mesh, std::span<const R
     s.any_hits(mesh, rays, occluded, mode, task);
 };
 
+/// A structure that answers coherent rays faster than others, as Structure::closest_hits_coherent says.
+template <class S>
+concept TracesPackets = requires(const S& s, const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                                 Mode mode, const Task& task) {
+    s.closest_hits_coherent(mesh, rays, hits, mode, task);
+};
+
 /// A built structure of any kind, immutable; copies share it. Called for batches of rays, never for one in a
 /// loop.
 class Structure {
@@ -53,7 +60,13 @@ public:
                       const Task& task) const {
         self_->closest_hits(mesh, rays, hits, {}, mode, task);
     }
-    /// The same, counted: counts.size() == rays.size(), each entry overwritten. Never timed.
+    /// The same for rays of which every 16 in turn, from the first, are neighbours, best of one origin: those
+    /// of a block of 4 x 4 pixels.
+    void closest_hits_coherent(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits, Mode mode,
+                               const Task& task) const {
+        self_->closest_hits_coherent(mesh, rays, hits, mode, task);
+    }
+    /// The same as closest_hits, counted: counts.size() == rays.size(), each entry overwritten. Never timed.
     void closest_hits_counted(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
                               std::span<Count> counts, Mode mode, const Task& task) const {
         self_->closest_hits(mesh, rays, hits, counts, mode, task);
@@ -85,6 +98,8 @@ private:
         virtual ~Interface() = default;
         virtual void closest_hits(const Mesh&, std::span<const Ray>, std::span<Hit>, std::span<Count>, Mode,
                                   const Task&) const = 0;
+        virtual void closest_hits_coherent(const Mesh&, std::span<const Ray>, std::span<Hit>, Mode,
+                                           const Task&) const = 0;
         virtual void any_hits(const Mesh&, std::span<const Ray>, std::span<uint8_t>, Mode,
                               const Task&) const = 0;
         virtual void add_visits(const Mesh&, std::span<const Ray>, std::span<uint32_t>, Mode,
@@ -137,6 +152,14 @@ private:
                 closest_hits_in<Mode::Exact>(mesh, rays, hits, counts, task);
             } else {
                 closest_hits_in<Mode::Fast>(mesh, rays, hits, counts, task);
+            }
+        }
+        void closest_hits_coherent(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                                   Mode mode, const Task& task) const override {
+            if constexpr (TracesPackets<S>) {
+                structure.closest_hits_coherent(mesh, rays, hits, mode, task);
+            } else {
+                closest_hits(mesh, rays, hits, {}, mode, task);
             }
         }
         void any_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<uint8_t> occluded, Mode mode,

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "core/wide_bvh/float_bounds.h"
+
+namespace boxwood {
+
+/// What float SIMD may decide for sure about a triangle and many rays that share their origin, as far as that
+/// differs from FloatBounds, whose names are used here: what depends on the triangle alone is computed once
+/// for all rays. u = 2^-24.
+///
+/// Edge functions. With P a corner from the origin, e the edge that begins there, n = P x e, z the axis along
+/// which |d| is largest and s = d / d_z, the edge function is F = d.(P x (P + e)) / d_z = s_x n_x + s_y n_y +
+/// n_z. Of its monomials s p e those of n_y carry the most roundings: of s, p and e, of the product, of the
+/// difference in n, of the product with s, of two sums: F is off by at most 8u times the sum of the absolute
+/// monomials. With S the largest |s| of all rays and E the largest |e| of all axes, that sum is at most
+/// E (|p_x| (1 + S_y) + |p_y| (1 + S_x) + |p_z| (S_x + S_y)). So one bound holds for all rays.
+///
+/// t. As in interval_of_t of filter.h, with D' = D / d_z = s_x n_x + s_y n_y + n_z, n the triangle's normal,
+/// whose factors are two edges: 8u as above. N carries 8u as there. |t d_z - N / D'| <= (eN + |t d_z| eD) /
+/// (|D'| - eD), at most 16/15 of that over |D'| where |D'| > 16 eD. The inverse, its product with N, 1/d_z,
+/// the product with that and the ends are rounded: 5u |t|, at most 5u / |D'| times the monomials of N, and 5u
+/// eD / |D'| |t d_z|: of second order. 13u instead of 8u.
+struct PacketBounds : FloatBounds {
+    static constexpr float kSharedEdge = 8.0f * kUnit * kSecondOrder;
+    static constexpr float kNumerator = 13.0f * kUnit * kSecondOrder;
+    static constexpr float kDenominator = 8.0f * kUnit * kSecondOrder;
+};
+
+}  // namespace boxwood

@@ -1,0 +1,382 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/wide_bvh/packet_tracer.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <optional>
+
+#include "core/structure/closest.h"
+#include "core/wide_bvh/packet_tests-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+
+// No vectors: one by one.
+template <uint32_t Width>
+void trace_packets(const WideBvh<Width>& bvh, const Mesh& mesh, std::span<const Ray> rays,
+                   std::span<Hit> hits, const Task& task) {
+    bvh.closest_hits(mesh, rays, hits, Mode::Exact, task);
+}
+
+#else
+
+/// The nearest hits of a packet's rays so far: as intervals of t as long as floats decide the order, by
+/// ClosestHit from the first time they do not.
+struct PacketSearch {
+    using ClosestHits = std::optional<ClosestHit<Mode::Exact> >;
+
+    const Ray* rays;
+    const TrianglePack* packs;
+    PacketFloats limits;                        ///< no hit beyond it counts; upper bound of the best hit's t
+    PacketFloats lowers;                        ///< of the best hit's t; -infinity for a ray that is decided
+    HWY_ALIGN uint32_t prims[kPacketSize];      ///< kNoIndex for none, and where decided
+    HWY_ALIGN uint32_t triangles[kPacketSize];  ///< of the best hit: pack and lane
+    float limit;                                ///< the largest of all
+    ClosestHits* decided;                       ///< one for each ray; empty but for those of `decided_bits`
+    uint32_t decided_bits = 0;
+
+    HWY_INLINE PacketSearch(const Ray* searched, const PacketRays& prepared, const TrianglePack* first_pack,
+                            ClosestHits* exact)
+        : rays(searched), packs(first_pack), limits(prepared.t_max), decided(exact) {
+        const PacketTag d;
+        for (uint32_t i = 0; i < kVectors; ++i)
+            lowers[i] = hn::Set(d, std::numeric_limits<float>::infinity());
+        std::fill_n(prims, kPacketSize, kNoIndex);
+        std::fill_n(triangles, kPacketSize, 0u);
+        limit = limits.largest();
+    }
+
+    HWY_INLINE void test(const PacketRays& ray, const TrianglePack& pack) {
+        const PacketTag d;
+        const PackEdges edges(pack, ray);
+        uint32_t open[TrianglePack::kSize], hit[TrianglePack::kSize], any = 0;
+        for (uint32_t lane = 0; lane < TrianglePack::kSize; ++lane) {
+            open[lane] = hit[lane] = 0;
+            const PacketVector bound = hn::Set(d, edges.bounds[lane]), minus_bound = hn::Neg(bound);
+            for (uint32_t i = 0; i < kVectors; ++i) {
+                const PacketVector u = function(ray, edges.edges[0], lane, i),
+                                   v = function(ray, edges.edges[1], lane, i),
+                                   w = function(ray, edges.edges[2], lane, i);
+                const PacketVector least = hn::Min(u, hn::Min(v, w)), most = hn::Max(u, hn::Max(v, w));
+                const auto missed = hn::And(hn::Lt(least, minus_bound), hn::Gt(most, bound));
+                const uint32_t missed_bits = packet_bits(missed);
+                const uint32_t all = (1u << kLanes) - 1;
+                if (HWY_LIKELY(missed_bits == all)) continue;
+                open[lane] |= (all & ~missed_bits) << (kLanes * i);
+                hit[lane] |= packet_bits(hn::Or(hn::Gt(least, bound), hn::Lt(most, minus_bound)))
+                             << (kLanes * i);
+                any |= 1;
+            }
+        }
+        if (any == 0) return;
+        const PackPlanes planes(edges, ray);
+        for (uint32_t lane = 0; lane < TrianglePack::kSize; ++lane)
+            if (open[lane] != 0) keep(ray, pack, planes, lane, open[lane], hit[lane]);
+        limit = limits.largest();
+    }
+    static HWY_INLINE PacketVector function(const PacketRays& ray, const float n[3][4], uint32_t lane,
+                                            uint32_t i) {
+        const PacketTag d;
+        return hn::MulAdd(ray.shear_x[i], hn::Set(d, n[0][lane]),
+                          hn::MulAdd(ray.shear_y[i], hn::Set(d, n[1][lane]), hn::Set(d, n[2][lane])));
+    }
+    HWY_INLINE void keep(const PacketRays& ray, const TrianglePack& pack, const PackPlanes& planes,
+                         uint32_t lane, uint32_t open, uint32_t hit) {
+        const PacketTag d;
+        const hn::RebindToUnsigned<PacketTag> du;
+        const uint32_t prim = pack.prims[lane];
+        const uint32_t triangle = static_cast<uint32_t>(&pack - packs) * TrianglePack::kSize + lane;
+        for (uint32_t i = 0; i < kVectors; ++i) {
+            const uint32_t all = (1u << kLanes) - 1;
+            const uint32_t open_here = open >> (kLanes * i) & all, hit_here = hit >> (kLanes * i) & all;
+            if (open_here == 0) continue;
+            const PacketVector denominator = function(ray, planes.normals, lane, i);
+            const PacketVector denominator_error = hn::Set(d, planes.denominator_errors[lane]);
+            const auto is_sure =
+                hn::And(packet_mask(hit_here),
+                        hn::Gt(hn::Abs(denominator), hn::Mul(hn::Set(d, 16.0f), denominator_error)));
+            const PacketVector inverse = hn::Div(hn::Set(d, 1.0f), denominator);
+            const PacketVector z = hn::Mul(hn::Set(d, planes.numerators[lane]), inverse);
+            const PacketVector size =
+                hn::Mul(hn::Set(d, 16.0f / 15.0f * FloatBounds::kSecondOrder), hn::Abs(inverse));
+            const PacketVector z_error = hn::Mul(
+                size, hn::MulAdd(hn::Abs(z), denominator_error, hn::Set(d, planes.numerator_errors[lane])));
+            const PacketVector t = hn::Mul(z, ray.inverse[ray.z][i]);
+            const PacketVector error =
+                hn::MulAdd(z_error, hn::Abs(ray.inverse[ray.z][i]), hn::Set(d, PacketBounds::kUnderflow));
+            const PacketVector lower = hn::Sub(t, error), upper = hn::Add(t, error);
+            const auto is_in_range = hn::And(hn::Ge(lower, ray.t_min[i]), hn::Le(upper, ray.t_max[i]));
+            const auto is_nearer = hn::And(is_sure, hn::And(is_in_range, hn::Lt(upper, lowers[i])));
+            const auto old_prims = hn::Load(du, prims + kLanes * i);
+            const auto is_same = hn::RebindMask(d, hn::Eq(old_prims, hn::Set(du, prim)));
+            const auto is_farther = hn::And(
+                is_sure, hn::Or(hn::Or(is_same, hn::Gt(lower, limits[i])), hn::Lt(upper, ray.t_min[i])));
+            const uint32_t nearer = packet_bits(is_nearer) & open_here;
+            uint32_t unknown = open_here & ~nearer & ~packet_bits(is_farther);
+            if (nearer != 0) {
+                const auto mask = is_nearer;
+                const auto mask_u = hn::RebindMask(du, mask);
+                limits[i] = hn::IfThenElse(mask, upper, limits[i]);
+                lowers[i] = hn::IfThenElse(mask, lower, lowers[i]);
+                hn::Store(hn::IfThenElse(mask_u, hn::Set(du, prim), old_prims), du, prims + kLanes * i);
+                hn::Store(hn::IfThenElse(mask_u, hn::Set(du, triangle), hn::Load(du, triangles + kLanes * i)),
+                          du, triangles + kLanes * i);
+            }
+            for (; unknown != 0; unknown &= unknown - 1)
+                decide(kLanes * i + static_cast<uint32_t>(std::countr_zero(unknown)), pack, lane);
+        }
+    }
+    Triangle triangle(uint32_t i) const {
+        return packs[triangles[i] / TrianglePack::kSize].triangle(triangles[i] % TrianglePack::kSize);
+    }
+    HWY_NOINLINE void decide(uint32_t i, const TrianglePack& pack, uint32_t lane) {
+        NoCount count;
+        ClosestHits& closest = decided[i];
+        if (!closest) {
+            closest.emplace(rays[i]);
+            if (prims[i] != kNoIndex) closest->test(triangle(i), prims[i], count);
+            set(lowers, i, -std::numeric_limits<float>::infinity());
+            prims[i] = kNoIndex;
+            decided_bits |= 1u << i;
+        }
+        closest->test(pack.triangle(lane), pack.prims[lane], count);
+        const double bound = closest->limit();
+        if (bound < double(limit_of(i))) {
+            float rounded = static_cast<float>(bound);
+            if (double(rounded) < bound)
+                rounded = std::nextafter(rounded, std::numeric_limits<float>::infinity());
+            set(limits, i, rounded);
+        }
+    }
+    float limit_of(uint32_t i) const {
+        HWY_ALIGN float lanes[kLanes];
+        hn::Store(limits[i / kLanes], PacketTag(), lanes);
+        return lanes[i % kLanes];
+    }
+    static void set(PacketFloats& floats, uint32_t i, float value) {
+        HWY_ALIGN float lanes[kLanes];
+        hn::Store(floats[i / kLanes], PacketTag(), lanes);
+        lanes[i % kLanes] = value;
+        floats[i / kLanes] = hn::Load(PacketTag(), lanes);
+    }
+    HWY_INLINE void write(const Mesh& mesh, const PacketRays& prepared, Hit* hits) {
+        const uint32_t hit = hit_bits();
+        HWY_ALIGN float t[kPacketSize];
+        uint32_t unknown = hit == 0 ? 0u : hit & ~round_t(prepared, t);
+        write_lanes(prepared.members, hit, t, hits);
+        unknown = (unknown | decided_bits) & prepared.members;
+        for (; HWY_UNLIKELY(unknown != 0); unknown &= unknown - 1) {
+            const uint32_t i = static_cast<uint32_t>(std::countr_zero(unknown));
+            if (!decided[i]) {
+                NoCount count;
+                decided[i].emplace(rays[i]);
+                decided_bits |= 1u << i;
+                decided[i]->test(triangle(i), prims[i], count);
+            }
+            hits[i] = decided[i]->hit(mesh);
+        }
+        for (; decided_bits != 0; decided_bits &= decided_bits - 1)
+            decided[std::countr_zero(decided_bits)].reset();
+    }
+    HWY_INLINE uint32_t hit_bits() const {
+        const hn::RebindToUnsigned<PacketTag> du;
+        uint32_t bits = 0;
+        for (uint32_t i = 0; i < kVectors; ++i) {
+            const auto is_hit = hn::Ne(hn::Load(du, prims + kLanes * i), hn::Set(du, kNoIndex));
+            bits |= packet_bits(hn::RebindMask(PacketTag(), is_hit)) << (kLanes * i);
+        }
+        return bits;
+    }
+    HWY_INLINE uint32_t round_t(const PacketRays& prepared, float* t) const {
+        PacketTriangles best;
+        for (uint32_t i = 0; i < kPacketSize; ++i)
+            best.set(i, packs[triangles[i] / TrianglePack::kSize], triangles[i] % TrianglePack::kSize);
+        return best.round_t(prepared, t);
+    }
+    HWY_INLINE void write_lanes(uint32_t members, uint32_t hit, const float* t, Hit* hits) const {
+        static_assert(sizeof(Hit) == 2 * sizeof(float) && offsetof(Hit, prim) == sizeof(float));
+        const PacketTag d;
+        const hn::RebindToUnsigned<PacketTag> du;
+        Hit apart[kPacketSize];
+        Hit* const to = members == (1u << kPacketSize) - 1 ? hits : apart;
+        for (uint32_t i = 0; i < kVectors; ++i) {
+            const PacketVector found =
+                hn::IfThenElse(packet_mask(hit >> (kLanes * i)), hn::Load(d, t + kLanes * i),
+                               hn::Set(d, std::numeric_limits<float>::infinity()));
+            hn::StoreInterleaved2(found, hn::BitCast(d, hn::Load(du, prims + kLanes * i)), d,
+                                  &to[kLanes * i].t);
+        }
+        if (to == hits) return;
+        for (; members != 0; members &= members - 1) {
+            const int i = std::countr_zero(members);
+            hits[i] = apart[i];
+        }
+    }
+};
+
+/// Children to be visited, the next one last: node and lane, with the parameter at which the first ray
+/// enters.
+template <uint32_t Width>
+struct PacketStack {
+    static constexpr uint32_t kSize = (WideBvh<Width>::kMaxDepth + 1) * Width;
+    uint32_t children[kSize];
+    float entries[kSize];
+};
+
+/// Adds the children whose boxes the frustum meets to the stack, the first in the order of the octant last.
+template <uint32_t Width>
+HWY_INLINE void push_met(const typename WideBvh<Width>::Node& node, uint32_t index,
+                         const Frustum<Width>& frustum, uint32_t octant, float limit,
+                         PacketStack<Width>& stack, uint32_t& count) {
+    const hn::CappedTag<float, Width> d;
+    const float* const planes = node.lower[0];
+    if constexpr (hn::MaxLanes(d) == Width) {
+        const hn::RebindToUnsigned<decltype(d)> du;
+        const auto entry = frustum.entry(planes);
+        const auto is_met = hn::Le(entry, frustum.exit(planes, limit));
+        uint8_t bytes[8] = {};
+        hn::StoreMaskBits(d, is_met, bytes);
+        const uint32_t met = bytes[0];
+        if (met == 0) return;
+        // The lanes back to front.
+        constexpr uint32_t kBits = Width == 4 ? 2 : 3;
+        uint32_t order;
+        std::memcpy(&order, &node.order[octant * kBits * Width / 8], sizeof(order));
+        HWY_ALIGN static constexpr uint32_t kShifts[8] = {7 * kBits, 6 * kBits, 5 * kBits, 4 * kBits,
+                                                          3 * kBits, 2 * kBits, kBits,     0};
+        const auto lanes =
+            hn::And(hn::Shr(hn::Set(du, order), hn::LoadU(du, kShifts + 8 - Width)), hn::Set(du, Width - 1));
+        const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+        const auto entries =
+            hn::TableLookupLanes(hn::IfThenElse(is_met, entry, infinity), hn::IndicesFromVec(d, lanes));
+        const auto is_pushed = hn::Lt(entries, infinity);
+        const auto children = hn::BitCast(d, hn::Or(lanes, hn::Set(du, index * Width)));
+        hn::StoreU(hn::Compress(entries, is_pushed), d, stack.entries + count);
+        hn::StoreU(hn::BitCast(du, hn::Compress(children, is_pushed)), du, stack.children + count);
+        count += static_cast<uint32_t>(std::popcount(met));
+    } else {
+        HWY_ALIGN float entries[Width];
+        uint32_t met = 0;
+        for (size_t first = 0; first < Width; first += hn::Lanes(d)) {
+            const auto entry = frustum.entry(planes + first);
+            hn::Store(entry, d, entries + first);
+            uint8_t bytes[8] = {};
+            hn::StoreMaskBits(d, hn::Le(entry, frustum.exit(planes + first, limit)), bytes);
+            met |= static_cast<uint32_t>(bytes[0]) << first;
+        }
+        for (uint32_t rank = Width; met != 0; --rank) {
+            const uint32_t lane = node.lane_at(octant, rank - 1);
+            if ((met >> lane & 1) == 0) continue;
+            met &= ~(1u << lane);
+            stack.children[count] = index * Width + lane;
+            stack.entries[count++] = entries[lane];
+        }
+    }
+}
+
+template <uint32_t Width>
+HWY_INLINE void find_closest(const WideBvh<Width>& bvh, const PacketRays& rays, PacketSearch& search) {
+    const Frustum<Width> frustum(rays);
+    const auto* const nodes = bvh.nodes.data();
+    PacketStack<Width> stack;
+    uint32_t count = 0;
+    push_met<Width>(nodes[0], 0, frustum, rays.octant, search.limit, stack, count);
+    while (count != 0) {
+        --count;
+        if (stack.entries[count] > search.limit) continue;
+        const uint32_t index = stack.children[count] / Width, lane = stack.children[count] % Width;
+        const auto& node = nodes[index];
+        if (!rays.any_meets<Width>(node.lower[0], frustum.at, lane, search.limits)) continue;
+        const WideChild child = node.children[lane];
+        if (child.is_leaf()) {
+            const TrianglePack* pack = search.packs + child.first_pack();
+            const TrianglePack* const end = pack + child.pack_count();
+            for (; pack != end; ++pack) search.test(rays, *pack);
+        } else {
+            push_met<Width>(nodes[child.node()], child.node(), frustum, rays.octant, search.limit, stack,
+                            count);
+        }
+    }
+}
+
+constexpr int kFew = 3;              ///< members of a packet that are cast one by one
+constexpr size_t kStopInterval = 4;  ///< packets from one look at task.stop to the next
+
+template <uint32_t Width>
+HWY_NOINLINE void trace_packets(const WideBvh<Width>& bvh, const Mesh& mesh, std::span<const Ray> rays,
+                                std::span<Hit> hits, const Task& task) {
+    size_t begin = 0;
+    if (!bvh.nodes.empty()) {
+        const FloatScene scene(bvh.nodes[0].bounds());
+        PacketSearch::ClosestHits decided[kPacketSize];
+        for (; begin + kPacketSize <= rays.size(); begin += kPacketSize) {
+            if (begin / kPacketSize % kStopInterval == 0 && task.stopped()) return;
+            const Ray* const first = rays.data() + begin;
+            const RayLanes lanes(first);
+            uint32_t left = (1u << kPacketSize) - 1;
+            while (left != 0) {
+                const PacketRays packet(first, lanes, scene, left);
+                uint32_t members = packet.members;
+                if (HWY_LIKELY(std::popcount(members) > kFew)) {
+                    PacketSearch search(first, packet, bvh.packs.data(), decided);
+                    find_closest<Width>(bvh, packet, search);
+                    search.write(mesh, packet, hits.data() + begin);
+                    left &= ~members;
+                    continue;
+                }
+                if (members == 0) members = left & (0u - left);
+                left &= ~members;
+                for (; members != 0; members &= members - 1) {
+                    const size_t i = begin + static_cast<size_t>(std::countr_zero(members));
+                    bvh.closest_hits(mesh, rays.subspan(i, 1), hits.subspan(i, 1), Mode::Exact, task);
+                }
+            }
+        }
+    }
+    bvh.closest_hits(mesh, rays.subspan(begin), hits.subspan(begin), Mode::Exact, task);
+}
+
+#endif
+
+// Highway exports plain functions, not templates: one for each width.
+void trace_packets4(const WideBvh<4>& bvh, const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                    const Task& task) {
+    trace_packets(bvh, mesh, rays, hits, task);
+}
+void trace_packets8(const WideBvh<8>& bvh, const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                    const Task& task) {
+    trace_packets(bvh, mesh, rays, hits, task);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace boxwood {
+
+HWY_EXPORT(trace_packets4);
+HWY_EXPORT(trace_packets8);
+
+template <>
+void WideBvh<4>::closest_hits_coherent(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                                       Mode mode, const Task& task) const {
+    if (mode == Mode::Fast) return closest_hits(mesh, rays, hits, mode, task);
+    HWY_DYNAMIC_DISPATCH(trace_packets4)(*this, mesh, rays, hits, task);
+}
+template <>
+void WideBvh<8>::closest_hits_coherent(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                                       Mode mode, const Task& task) const {
+    if (mode == Mode::Fast) return closest_hits(mesh, rays, hits, mode, task);
+    HWY_DYNAMIC_DISPATCH(trace_packets8)(*this, mesh, rays, hits, task);
+}
+
+}  // namespace boxwood
+#endif
