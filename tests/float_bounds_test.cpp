@@ -86,7 +86,7 @@ void answer_cases(std::span<const FloatCase>, Mode, Variant, std::span<FloatAnsw
 
 template <Mode mode, class Bounds>
 HWY_NOINLINE void answer_with(std::span<const FloatCase> cases, std::span<FloatAnswer> answers) {
-    const D4 d;
+    const PackTag<4> d;
     for (size_t i = 0; i < cases.size(); ++i) {
         const FloatCase& one_case = cases[i];
         FloatAnswer& answer = answers[i];
@@ -94,8 +94,8 @@ HWY_NOINLINE void answer_with(std::span<const FloatCase> cases, std::span<FloatA
         const FloatRays<mode, Bounds> rays({&one_case.ray, 1}, FloatScene(one_case.box));
         answer.is_usable = rays.usable[0] != 0;
         if (!answer.is_usable) continue;
-        const FloatRay<mode, Bounds> ray(rays, 0);
-        TrianglePack pack{};
+        const FloatRay<mode, 4, Bounds> ray(rays, 0);
+        TrianglePack<4> pack{};
         HWY_ALIGN float planes[6][8], entries[8], exits[8];
         const Vec3 corners[3] = {one_case.triangle.a, one_case.triangle.b, one_case.triangle.c};
         for (int axis = 0; axis < 3; ++axis) {
@@ -104,10 +104,10 @@ HWY_NOINLINE void answer_with(std::span<const FloatCase> cases, std::span<FloatA
             std::fill_n(planes[axis], 8, one_case.box.lower[axis]);
             std::fill_n(planes[3 + axis], 8, one_case.box.upper[axis]);
         }
-        PackHits hits;
+        PackHits<4> hits;
         answer.is_open = test_pack(pack, ray, one_case.ray.t_max, hits);
         answer.is_sure = answer.is_open && (hits.sure & 1) != 0;
-        const PlaneHits plane(pack, ray, Sheared(pack, ray));
+        const PlaneHits<4> plane(pack, 0, ray, Sheared<4>(pack, 0, ray));
         answer.is_plane_sure = (bits_of(d, plane.is_sure) & 1) != 0;
         answer.lower = hn::GetLane(plane.lower);
         answer.upper = hn::GetLane(plane.upper);

@@ -78,8 +78,8 @@ TEST(WideBvh, LanesWithoutATriangleRepeatTheLastOne) {
     const Mesh mesh = random_triangles(301, 0.1f, 2);
     const WideBvh<4> wide = collapse<4>(mesh, built_bvh(mesh, "bvh-sweep-sah"));
     std::multiset<uint32_t> found;
-    for (const TrianglePack& pack : wide.packs) {
-        for (uint32_t lane = 0; lane < TrianglePack::kSize; ++lane) {
+    for (const auto& pack : wide.packs) {
+        for (uint32_t lane = 0; lane < pack.kSize; ++lane) {
             const Triangle expected = mesh.triangle(pack.prims[lane]), triangle = pack.triangle(lane);
             EXPECT_TRUE(triangle.a == expected.a && triangle.b == expected.b && triangle.c == expected.c);
             EXPECT_EQ(pack.prims[lane], pack.prims[std::min(lane, pack.count() - 1)]);

@@ -36,7 +36,7 @@ Collapsed collapse(const Mesh& mesh, const Bvh2& input, const Collapse<Width>& m
     result.packs = wide.packs.size();
     for (const auto& node : wide.nodes)
         for (const WideChild child : node.children) result.children += child.is_empty() ? 0 : 1;
-    for (const TrianglePack& pack : wide.packs) result.triangles += pack.count();
+    for (const auto& pack : wide.packs) result.triangles += pack.count();
     return result;
 }
 

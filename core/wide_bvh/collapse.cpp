@@ -37,7 +37,7 @@ public:
 
 private:
     WidePart part(uint32_t node) const {
-        const bool fits = counts_.are_few(node) && pack_count(counts_.of(node)) == 1;
+        const bool fits = counts_.are_few(node) && WideBvh<Width>::Pack::packs_for(counts_.of(node)) == 1;
         return {node, fits || bvh_.nodes[node].is_leaf()};
     }
     double area(WidePart part) const { return half_area(bvh_.nodes[part.node]); }
@@ -46,18 +46,22 @@ private:
     const PrimCounts& counts_;
 };
 
-constexpr uint32_t kMostPrims = WideChild::kMostPacks * TrianglePack::kSize;  ///< of one leaf
+template <uint32_t Width>
+constexpr uint32_t kMostPrims = WideChild::kMostPacks* Width;  ///< of one leaf
 
+template <uint32_t Width>
 bool has_large_leaf(const Bvh2& bvh) {
-    return std::ranges::any_of(bvh.nodes, [](const Bvh2::Node& node) { return node.count > kMostPrims; });
+    return std::ranges::any_of(bvh.nodes,
+                               [](const Bvh2::Node& node) { return node.count > kMostPrims<Width>; });
 }
 
 /// The same with leaves of at most WideChild::kMostPacks packs: halves of larger ones, with the same box.
+template <uint32_t Width>
 Bvh2 with_small_leaves(const Bvh2& bvh) {
     Bvh2 result = bvh;
     for (size_t i = 0; i < result.nodes.size(); ++i) {
         const Bvh2::Node leaf = result.nodes[i];
-        if (leaf.count <= kMostPrims) continue;
+        if (leaf.count <= kMostPrims<Width>) continue;
         const uint32_t left = leaf.count / 2;
         result.nodes[i].first = static_cast<uint32_t>(result.nodes.size());
         result.nodes[i].count = 0;
@@ -90,7 +94,7 @@ WideBvh<Width> Collapse<Width>::apply(const Mesh& mesh, std::span<const PrimRef>
                                       Task& task) const {
     if (input.nodes.empty()) return {};
     std::optional<Bvh2> halved;
-    if (has_large_leaf(input)) halved = with_small_leaves(input);
+    if (has_large_leaf<Width>(input)) halved = with_small_leaves<Width>(input);
     const Bvh2& bvh = halved ? *halved : input;
     const PrimCounts counts(mesh, bvh, static_cast<uint32_t>(leaf_size), task);
     if (way == Greedy) return make_wide<Width>(mesh, bvh, counts, GreedyPlan<Width>(bvh, counts), task);

@@ -23,8 +23,11 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D4 = hn::FixedTag<float, 4>;
-using V4 = hn::Vec<D4>;
+/// Vectors over the lanes of a pack, or of a part of it where vectors are short.
+template <uint32_t Size>
+using PackTag = hn::CappedTag<float, Size>;
+template <uint32_t Size>
+constexpr uint32_t kPackPart = hn::MaxLanes(PackTag<Size>());
 
 template <class D>
 HWY_INLINE uint32_t bits_of(D d, hn::Mask<D> mask) {
@@ -34,16 +37,18 @@ HWY_INLINE uint32_t bits_of(D d, hn::Mask<D> mask) {
 }
 
 /// One of the prepared rays as the triangle tests take it, over the lanes of a pack.
-template <Mode mode, class Bounds = FloatBounds>
+template <Mode mode, uint32_t Size, class Bounds = FloatBounds>
 struct FloatRay {
+    using D = PackTag<Size>;
+    using V = hn::Vec<D>;
     size_t x, y, z;  ///< axes; z is the one with the largest |d|
-    V4 origin_x, origin_y, origin_z, direction_x, direction_y, direction_z, shear_x, shear_y;
-    V4 inverse_z, t_min;
-    V4 edge_bound;  ///< of the edge functions of any triangle, to be multiplied with X; exact mode only
+    V origin_x, origin_y, origin_z, direction_x, direction_y, direction_z, shear_x, shear_y;
+    V inverse_z, t_min;
+    V edge_bound;  ///< of the edge functions of any triangle, to be multiplied with X; exact mode only
 
     HWY_INLINE FloatRay(const FloatRays<mode, Bounds>& rays, size_t i)
         : x(rays.axes[0][i]), y(rays.axes[1][i]), z(rays.axes[2][i]) {
-        const D4 d;
+        const D d;
         origin_x = hn::Set(d, rays.origin[0][i]);
         origin_y = hn::Set(d, rays.origin[1][i]);
         origin_z = hn::Set(d, rays.origin[2][i]);
@@ -59,29 +64,34 @@ struct FloatRay {
 };
 
 /// Which lanes of a pack may be hit, and which surely are, at t in [lower, upper].
+template <uint32_t Size>
 struct PackHits {
     uint32_t open, sure;
-    HWY_ALIGN float lower[4], upper[4];
+    HWY_ALIGN float lower[Size], upper[Size];
 };
 
 /// Vertices relative to the origin, sheared so that the ray is the z axis, and their edge functions.
+template <uint32_t Size>
 struct Sheared {
+    using D = PackTag<Size>;
+    using V = hn::Vec<D>;
     /// Fast mode's triangle is the one whose products are rounded.
     template <Mode mode>
-    static HWY_INLINE V4 shear(V4 slope, V4 z, V4 x) {
+    static HWY_INLINE V shear(V slope, V z, V x) {
         return mode == Mode::Fast ? hn::Sub(x, hn::Mul(slope, z)) : hn::NegMulAdd(slope, z, x);
     }
 
-    V4 ax, ay, az, bx, by, bz, cx, cy, cz, u, v, w;
-    V4 size;  ///< X: the largest |x| or |y|
+    V ax, ay, az, bx, by, bz, cx, cy, cz, u, v, w;
+    V size;  ///< X: the largest |x| or |y|
 
     template <Mode mode, class Bounds>
-    HWY_INLINE Sheared(const TrianglePack& pack, const FloatRay<mode, Bounds>& ray) {
-        const D4 d;
+    HWY_INLINE Sheared(const TrianglePack<Size>& pack, uint32_t first,
+                       const FloatRay<mode, Size, Bounds>& ray) {
+        const D d;
         // Not nine addresses.
-        const float* const x = pack.corners[0][ray.x];
-        const float* const y = pack.corners[0][ray.y];
-        const float* const z = pack.corners[0][ray.z];
+        const float* const x = pack.corners[0][ray.x] + first;
+        const float* const y = pack.corners[0][ray.y] + first;
+        const float* const z = pack.corners[0][ray.z] + first;
         constexpr size_t kCorner = sizeof(pack.corners[0]) / sizeof(float);
         az = hn::Sub(hn::Load(d, z), ray.origin_z);
         bz = hn::Sub(hn::Load(d, z + kCorner), ray.origin_z);
@@ -100,110 +110,127 @@ struct Sheared {
     }
     /// By the distance of these triangles.
     template <Mode mode, class Bounds>
-    HWY_INLINE V4 edge_bound() const {
-        const D4 d;
-        const V4 underflow = hn::Set(d, Bounds::kUnderflow);
+    HWY_INLINE V edge_bound() const {
+        const D d;
+        const V underflow = hn::Set(d, Bounds::kUnderflow);
         if constexpr (mode == Mode::Fast)
             return hn::MulAdd(hn::Mul(hn::Set(d, Bounds::kFastEdge), size), size, underflow);
-        const V4 reach = hn::Max(hn::Max(hn::Max(hn::Abs(az), hn::Abs(bz)), hn::Abs(cz)), size);
+        const V reach = hn::Max(hn::Max(hn::Max(hn::Abs(az), hn::Abs(bz)), hn::Abs(cz)), size);
         return hn::MulAdd(hn::Mul(hn::Set(d, Bounds::kEdge), size), reach, underflow);
     }
-    HWY_INLINE hn::Mask<D4> is_missed(V4 bound) const {
+    HWY_INLINE hn::Mask<D> is_missed(V bound) const {
         return hn::And(hn::Lt(hn::Min(u, hn::Min(v, w)), hn::Neg(bound)),
                        hn::Gt(hn::Max(u, hn::Max(v, w)), bound));
     }
-    HWY_INLINE hn::Mask<D4> is_hit(V4 bound) const {
+    HWY_INLINE hn::Mask<D> is_hit(V bound) const {
         return hn::Or(hn::Gt(hn::Min(u, hn::Min(v, w)), bound),
                       hn::Lt(hn::Max(u, hn::Max(v, w)), hn::Neg(bound)));
     }
 };
 
 /// An interval of t for every lane of which `is_sure` holds, and that is hit.
+template <uint32_t Size>
 struct PlaneHits {
-    V4 lower, upper;
-    hn::Mask<D4> is_sure;
+    using D = PackTag<Size>;
+    using V = hn::Vec<D>;
+    V lower, upper;
+    hn::Mask<D> is_sure;
 
     /// Of the plane.
     template <class Bounds>
-    HWY_INLINE PlaneHits(const TrianglePack& pack, const FloatRay<Mode::Exact, Bounds>& ray,
-                         const Sheared& s) {
-        const D4 d;
-        const V4 ox = hn::Load(d, pack.corners[0][ray.x]), oy = hn::Load(d, pack.corners[0][ray.y]),
-                 oz = hn::Load(d, pack.corners[0][ray.z]);
-        const V4 e1x = hn::Sub(hn::Load(d, pack.corners[1][ray.x]), ox),
-                 e1y = hn::Sub(hn::Load(d, pack.corners[1][ray.y]), oy),
-                 e1z = hn::Sub(hn::Load(d, pack.corners[1][ray.z]), oz),
-                 e2x = hn::Sub(hn::Load(d, pack.corners[2][ray.x]), ox),
-                 e2y = hn::Sub(hn::Load(d, pack.corners[2][ray.y]), oy),
-                 e2z = hn::Sub(hn::Load(d, pack.corners[2][ray.z]), oz);
-        const V4 nx1 = hn::Mul(e1y, e2z), nx2 = hn::Mul(e1z, e2y), ny1 = hn::Mul(e1z, e2x),
-                 ny2 = hn::Mul(e1x, e2z), nz1 = hn::Mul(e1x, e2y), nz2 = hn::Mul(e1y, e2x);
-        const V4 nx = hn::Sub(nx1, nx2), ny = hn::Sub(ny1, ny2), nz = hn::Sub(nz1, nz2);
-        const V4 sum_x = hn::Add(hn::Abs(nx1), hn::Abs(nx2)), sum_y = hn::Add(hn::Abs(ny1), hn::Abs(ny2)),
-                 sum_z = hn::Add(hn::Abs(nz1), hn::Abs(nz2));
-        const V4 ax = hn::Sub(ox, ray.origin_x), ay = hn::Sub(oy, ray.origin_y);
-        const V4 dx = ray.direction_x, dy = ray.direction_y, dz = ray.direction_z;
-        const V4 numerator = hn::MulAdd(ax, nx, hn::MulAdd(ay, ny, hn::Mul(s.az, nz)));
-        const V4 denominator = hn::MulAdd(dx, nx, hn::MulAdd(dy, ny, hn::Mul(dz, nz)));
-        const V4 underflow = hn::Set(d, Bounds::kUnderflow);
-        const V4 numerator_error = hn::MulAdd(
+    HWY_INLINE PlaneHits(const TrianglePack<Size>& pack, uint32_t first,
+                         const FloatRay<Mode::Exact, Size, Bounds>& ray, const Sheared<Size>& s) {
+        const D d;
+        const V ox = hn::Load(d, pack.corners[0][ray.x] + first),
+                oy = hn::Load(d, pack.corners[0][ray.y] + first),
+                oz = hn::Load(d, pack.corners[0][ray.z] + first);
+        const V e1x = hn::Sub(hn::Load(d, pack.corners[1][ray.x] + first), ox),
+                e1y = hn::Sub(hn::Load(d, pack.corners[1][ray.y] + first), oy),
+                e1z = hn::Sub(hn::Load(d, pack.corners[1][ray.z] + first), oz),
+                e2x = hn::Sub(hn::Load(d, pack.corners[2][ray.x] + first), ox),
+                e2y = hn::Sub(hn::Load(d, pack.corners[2][ray.y] + first), oy),
+                e2z = hn::Sub(hn::Load(d, pack.corners[2][ray.z] + first), oz);
+        const V nx1 = hn::Mul(e1y, e2z), nx2 = hn::Mul(e1z, e2y), ny1 = hn::Mul(e1z, e2x),
+                ny2 = hn::Mul(e1x, e2z), nz1 = hn::Mul(e1x, e2y), nz2 = hn::Mul(e1y, e2x);
+        const V nx = hn::Sub(nx1, nx2), ny = hn::Sub(ny1, ny2), nz = hn::Sub(nz1, nz2);
+        const V sum_x = hn::Add(hn::Abs(nx1), hn::Abs(nx2)), sum_y = hn::Add(hn::Abs(ny1), hn::Abs(ny2)),
+                sum_z = hn::Add(hn::Abs(nz1), hn::Abs(nz2));
+        const V ax = hn::Sub(ox, ray.origin_x), ay = hn::Sub(oy, ray.origin_y);
+        const V dx = ray.direction_x, dy = ray.direction_y, dz = ray.direction_z;
+        const V numerator = hn::MulAdd(ax, nx, hn::MulAdd(ay, ny, hn::Mul(s.az, nz)));
+        const V denominator = hn::MulAdd(dx, nx, hn::MulAdd(dy, ny, hn::Mul(dz, nz)));
+        const V underflow = hn::Set(d, Bounds::kUnderflow);
+        const V numerator_error = hn::MulAdd(
             hn::Set(d, 11.0f * Bounds::kTermUnit),
             hn::MulAdd(hn::Abs(ax), sum_x, hn::MulAdd(hn::Abs(ay), sum_y, hn::Mul(hn::Abs(s.az), sum_z))),
             underflow);
-        const V4 denominator_error = hn::MulAdd(
+        const V denominator_error = hn::MulAdd(
             hn::Set(d, 7.0f * Bounds::kTermUnit),
             hn::MulAdd(hn::Abs(dx), sum_x, hn::MulAdd(hn::Abs(dy), sum_y, hn::Mul(hn::Abs(dz), sum_z))),
             underflow);
         is_sure = hn::Gt(hn::Abs(denominator), hn::Mul(hn::Set(d, 16.0f), denominator_error));
-        const V4 inverse = hn::Div(hn::Set(d, 1.0f), denominator);
-        const V4 t = hn::Mul(numerator, inverse);
-        const V4 size = hn::Mul(hn::Set(d, 16.0f / 15.0f * FloatBounds::kSecondOrder), hn::Abs(inverse));
-        const V4 error =
+        const V inverse = hn::Div(hn::Set(d, 1.0f), denominator);
+        const V t = hn::Mul(numerator, inverse);
+        const V size = hn::Mul(hn::Set(d, 16.0f / 15.0f * FloatBounds::kSecondOrder), hn::Abs(inverse));
+        const V error =
             hn::MulAdd(size, hn::MulAdd(hn::Abs(t), denominator_error, numerator_error), underflow);
         lower = hn::Sub(t, error);
         upper = hn::Add(t, error);
     }
     /// Of the search in fast mode.
     template <class Bounds>
-    HWY_INLINE PlaneHits(const TrianglePack&, const FloatRay<Mode::Fast, Bounds>& ray, const Sheared& s) {
-        const D4 d;
-        const V4 underflow = hn::Set(d, Bounds::kUnderflow);
-        const V4 inverse_sum = hn::Div(hn::Set(d, 1.0f), hn::Add(s.u, hn::Add(s.v, s.w)));
-        const V4 z = hn::Mul(hn::MulAdd(s.u, s.az, hn::MulAdd(s.v, s.bz, hn::Mul(s.w, s.cz))), inverse_sum);
-        const V4 least = hn::Min(s.az, hn::Min(s.bz, s.cz)), most = hn::Max(s.az, hn::Max(s.bz, s.cz));
-        const V4 products = hn::Mul(hn::Mul(hn::Set(d, Bounds::kFastRange), s.size), s.size);
-        const V4 edges = hn::MulAdd(products, hn::Sub(most, least), underflow);
-        const V4 z_error = hn::MulAdd(hn::Set(d, Bounds::kFastZ), hn::Max(hn::Abs(least), hn::Abs(most)),
-                                      hn::Mul(edges, hn::Abs(inverse_sum)));
-        const V4 t = hn::Mul(z, ray.inverse_z);
-        const V4 error = hn::MulAdd(z_error, hn::Abs(ray.inverse_z), underflow);
+    HWY_INLINE PlaneHits(const TrianglePack<Size>&, uint32_t, const FloatRay<Mode::Fast, Size, Bounds>& ray,
+                         const Sheared<Size>& s) {
+        const D d;
+        const V underflow = hn::Set(d, Bounds::kUnderflow);
+        const V inverse_sum = hn::Div(hn::Set(d, 1.0f), hn::Add(s.u, hn::Add(s.v, s.w)));
+        const V z = hn::Mul(hn::MulAdd(s.u, s.az, hn::MulAdd(s.v, s.bz, hn::Mul(s.w, s.cz))), inverse_sum);
+        const V least = hn::Min(s.az, hn::Min(s.bz, s.cz)), most = hn::Max(s.az, hn::Max(s.bz, s.cz));
+        const V products = hn::Mul(hn::Mul(hn::Set(d, Bounds::kFastRange), s.size), s.size);
+        const V edges = hn::MulAdd(products, hn::Sub(most, least), underflow);
+        const V z_error = hn::MulAdd(hn::Set(d, Bounds::kFastZ), hn::Max(hn::Abs(least), hn::Abs(most)),
+                                     hn::Mul(edges, hn::Abs(inverse_sum)));
+        const V t = hn::Mul(z, ray.inverse_z);
+        const V error = hn::MulAdd(z_error, hn::Abs(ray.inverse_z), underflow);
         lower = hn::Sub(t, error);
         upper = hn::Add(t, error);
         is_sure = hn::Le(lower, upper);
     }
 };
 
-/// False if no triangle of the pack can be hit at `limit` or before.
-template <Mode mode, class Bounds>
-HWY_INLINE bool test_pack(const TrianglePack& pack, const FloatRay<mode, Bounds>& ray, float limit,
-                          PackHits& hits) {
-    const D4 d;
-    const Sheared s(pack, ray);
+/// Of the part of a pack that begins at lane `first`: its lanes that may be hit at `limit` or before.
+template <Mode mode, uint32_t Size, class Bounds>
+HWY_INLINE uint32_t test_part(const TrianglePack<Size>& pack, uint32_t first,
+                              const FloatRay<mode, Size, Bounds>& ray, float limit, PackHits<Size>& hits) {
+    const PackTag<Size> d;
+    using V = hn::Vec<PackTag<Size> >;
+    const Sheared<Size> s(pack, first, ray);
     if constexpr (mode == Mode::Exact) {
-        const V4 far_bound = hn::MulAdd(ray.edge_bound, s.size, hn::Set(d, Bounds::kUnderflow));
-        if (HWY_LIKELY(hn::AllTrue(d, s.is_missed(far_bound)))) return false;
+        const V far_bound = hn::MulAdd(ray.edge_bound, s.size, hn::Set(d, Bounds::kUnderflow));
+        if (HWY_LIKELY(hn::AllTrue(d, s.is_missed(far_bound)))) return 0;
     }
     // In exact mode again, with the bound for these triangles' own distance instead of the scene's.
-    const V4 bound = s.template edge_bound<mode, Bounds>();
+    const V bound = s.template edge_bound<mode, Bounds>();
     const auto missed = s.is_missed(bound);
-    const PlaneHits plane(pack, ray, s);
+    const PlaneHits<Size> plane(pack, first, ray, s);
     const auto sure = hn::And(s.is_hit(bound), plane.is_sure);
+    // Where a branch would often be mispredicted: a ray that leaves a surface meets its triangle, before
+    // t_min.
     const auto is_outside = hn::Or(hn::Gt(plane.lower, hn::Set(d, limit)), hn::Lt(plane.upper, ray.t_min));
     const auto closed = hn::Or(missed, hn::And(sure, is_outside));
-    hits.open = 15u & ~bits_of(d, closed);
-    hits.sure = bits_of(d, sure);
-    hn::Store(plane.lower, d, hits.lower);
-    hn::Store(plane.upper, d, hits.upper);
+    hits.sure |= bits_of(d, sure) << first;
+    hn::Store(plane.lower, d, hits.lower + first);
+    hn::Store(plane.upper, d, hits.upper + first);
+    return ((1u << kPackPart<Size>)-1) & ~bits_of(d, closed);
+}
+
+/// False if no triangle of the pack can be hit in the ray's range, at `limit` or before.
+template <Mode mode, uint32_t Size, class Bounds>
+HWY_INLINE bool test_pack(const TrianglePack<Size>& pack, const FloatRay<mode, Size, Bounds>& ray,
+                          float limit, PackHits<Size>& hits) {
+    hits.open = hits.sure = 0;
+    for (uint32_t first = 0; first < Size; first += kPackPart<Size>)
+        hits.open |= test_part(pack, first, ray, limit, hits) << first;
     return hits.open != 0;
 }
 

@@ -89,7 +89,7 @@ typename LeastCostPlan<Width>::Costs LeastCostPlan<Width>::choose(uint32_t node,
 
 template <uint32_t Width>
 double LeastCostPlan<Width>::leaf_cost(uint32_t node, uint32_t prim_count) const {
-    return probability(node) * pack_count(prim_count) * costs_.pack;
+    return probability(node) * WideBvh<Width>::Pack::packs_for(prim_count) * costs_.pack;
 }
 
 template <uint32_t Width>

@@ -273,12 +273,14 @@ struct PacketRays {
 struct PacketTriangles {
     HWY_ALIGN float corners[3][3][kPacketSize];
 
-    HWY_INLINE void set(uint32_t i, const TrianglePack& pack, uint32_t lane) {
+    template <uint32_t Size>
+    HWY_INLINE void set(uint32_t i, const TrianglePack<Size>& pack, uint32_t lane) {
         set_corner(i, pack, lane, 0);
         set_corner(i, pack, lane, 1);
         set_corner(i, pack, lane, 2);
     }
-    HWY_INLINE void set_corner(uint32_t i, const TrianglePack& pack, uint32_t lane, uint32_t corner) {
+    template <uint32_t Size>
+    HWY_INLINE void set_corner(uint32_t i, const TrianglePack<Size>& pack, uint32_t lane, uint32_t corner) {
         corners[corner][0][i] = pack.corners[corner][0][lane];
         corners[corner][1][i] = pack.corners[corner][1][lane];
         corners[corner][2][i] = pack.corners[corner][2][lane];
@@ -384,17 +386,18 @@ struct Frustum {
     }
 };
 
-/// Vectors of four triangles, in the rays' axes.
+/// Vectors of the triangles of a pack, or of a part of it where vectors are short, in the rays' axes.
+template <uint32_t Size>
 struct PackVectors {
-    using D = hn::FixedTag<float, 4>;
+    using D = hn::CappedTag<float, Size>;
     using V = hn::Vec<D>;
     V x, y, z;
 
     HWY_INLINE PackVectors(V in_x, V in_y, V in_z) : x(in_x), y(in_y), z(in_z) {}
-    HWY_INLINE PackVectors(const float corners[3][4], const PacketRays& rays)
-        : x(hn::Load(D(), corners[rays.x])),
-          y(hn::Load(D(), corners[rays.y])),
-          z(hn::Load(D(), corners[rays.z])) {}
+    HWY_INLINE PackVectors(const float corners[3][Size], uint32_t first, const PacketRays& rays)
+        : x(hn::Load(D(), corners[rays.x] + first)),
+          y(hn::Load(D(), corners[rays.y] + first)),
+          z(hn::Load(D(), corners[rays.z] + first)) {}
     HWY_INLINE PackVectors minus(const PackVectors& v) const {
         return {hn::Sub(x, v.x), hn::Sub(y, v.y), hn::Sub(z, v.z)};
     }
@@ -405,26 +408,31 @@ struct PackVectors {
     }
 };
 
-/// What the triangles of a pack are to all rays of a packet; see PacketBounds.
+/// What the triangles of a pack, or of the part of it that begins at lane `first`, are to all rays of a
+/// packet; see PacketBounds.
+template <uint32_t Size>
 struct PackEdges {
-    using D = PackVectors::D;
-    using V = PackVectors::V;
-    HWY_ALIGN float edges[3][3][4];  ///< n of each edge function, by axis x, y, z of the rays
-    HWY_ALIGN float bounds[4];       ///< of the edge functions of a triangle
-    PackVectors a, ab, bc;           ///< corner a from the origin, edges
+    using Vectors = PackVectors<Size>;
+    using D = typename Vectors::D;
+    using V = typename Vectors::V;
+    static constexpr uint32_t kPart = hn::MaxLanes(D());
+    HWY_ALIGN float edges[3][3][kPart];  ///< n of each edge function, by axis x, y, z of the rays
+    HWY_ALIGN float bounds[kPart];       ///< of the edge functions of a triangle
+    Vectors a, ab, bc;                   ///< corner a from the origin, edges
 
-    HWY_INLINE PackEdges(const TrianglePack& pack, const PacketRays& rays)
-        : PackEdges({pack.corners[0], rays}, {pack.corners[1], rays}, {pack.corners[2], rays},
+    HWY_INLINE PackEdges(const TrianglePack<Size>& pack, uint32_t first, const PacketRays& rays)
+        : PackEdges({pack.corners[0], first, rays}, {pack.corners[1], first, rays},
+                    {pack.corners[2], first, rays},
                     {hn::Set(D(), rays.origin[rays.x]), hn::Set(D(), rays.origin[rays.y]),
                      hn::Set(D(), rays.origin[rays.z])},
                     rays.shear_sizes[0], rays.shear_sizes[1]) {}
 
 private:
-    HWY_INLINE PackEdges(const PackVectors& at_a, const PackVectors& at_b, const PackVectors& at_c,
-                         const PackVectors& origin, float shear_x, float shear_y)
+    HWY_INLINE PackEdges(const Vectors& at_a, const Vectors& at_b, const Vectors& at_c, const Vectors& origin,
+                         float shear_x, float shear_y)
         : a(at_a.minus(origin)), ab(at_b.minus(at_a)), bc(at_c.minus(at_b)) {
         const D d;
-        const PackVectors b = at_b.minus(origin), c = at_c.minus(origin), ca = at_a.minus(at_c);
+        const Vectors b = at_b.minus(origin), c = at_c.minus(origin), ca = at_a.minus(at_c);
         store_cross(a, ab, edges[0]);
         store_cross(b, bc, edges[1]);
         store_cross(c, ca, edges[2]);
@@ -437,7 +445,7 @@ private:
                              hn::Set(d, PacketBounds::kUnderflow)),
                   d, bounds);
     }
-    static HWY_INLINE void store_cross(const PackVectors& p, const PackVectors& e, float n[3][4]) {
+    static HWY_INLINE void store_cross(const Vectors& p, const Vectors& e, float n[3][kPart]) {
         const D d;
         hn::Store(hn::MulSub(p.y, e.z, hn::Mul(p.z, e.y)), d, n[0]);
         hn::Store(hn::MulSub(p.z, e.x, hn::Mul(p.x, e.z)), d, n[1]);
@@ -445,14 +453,16 @@ private:
     }
 };
 
-/// The planes of a pack's triangles.
+/// The planes of the same triangles.
+template <uint32_t Size>
 struct PackPlanes {
-    using D = hn::FixedTag<float, 4>;
+    using D = typename PackEdges<Size>::D;
     using V = hn::Vec<D>;
-    HWY_ALIGN float normals[3][4];  ///< by axis x, y, z of the rays
-    HWY_ALIGN float numerators[4], numerator_errors[4], denominator_errors[4];
+    static constexpr uint32_t kPart = PackEdges<Size>::kPart;
+    HWY_ALIGN float normals[3][kPart];  ///< by axis x, y, z of the rays
+    HWY_ALIGN float numerators[kPart], numerator_errors[kPart], denominator_errors[kPart];
 
-    HWY_INLINE PackPlanes(const PackEdges& of, const PacketRays& rays) {
+    HWY_INLINE PackPlanes(const PackEdges<Size>& of, const PacketRays& rays) {
         const D d;
         const V nx1 = hn::Mul(of.ab.y, of.bc.z), nx2 = hn::Mul(of.ab.z, of.bc.y),
                 ny1 = hn::Mul(of.ab.z, of.bc.x), ny2 = hn::Mul(of.ab.x, of.bc.z),

@@ -29,11 +29,15 @@ void trace_packets(const WideBvh<Width>& bvh, const Mesh& mesh, std::span<const 
 
 /// The nearest hits of a packet's rays so far: as intervals of t as long as floats decide the order, by
 /// ClosestHit from the first time they do not.
+using ClosestHits = std::optional<ClosestHit<Mode::Exact> >;
+
+template <uint32_t Width>
 struct PacketSearch {
-    using ClosestHits = std::optional<ClosestHit<Mode::Exact> >;
+    using Pack = TrianglePack<Width>;
+    static constexpr uint32_t kPart = PackEdges<Width>::kPart;
 
     const Ray* rays;
-    const TrianglePack* packs;
+    const Pack* packs;
     PacketFloats limits;                        ///< no hit beyond it counts; upper bound of the best hit's t
     PacketFloats lowers;                        ///< of the best hit's t; -infinity for a ray that is decided
     HWY_ALIGN uint32_t prims[kPacketSize];      ///< kNoIndex for none, and where decided
@@ -42,7 +46,7 @@ struct PacketSearch {
     ClosestHits* decided;                       ///< one for each ray; empty but for those of `decided_bits`
     uint32_t decided_bits = 0;
 
-    HWY_INLINE PacketSearch(const Ray* searched, const PacketRays& prepared, const TrianglePack* first_pack,
+    HWY_INLINE PacketSearch(const Ray* searched, const PacketRays& prepared, const Pack* first_pack,
                             ClosestHits* exact)
         : rays(searched), packs(first_pack), limits(prepared.t_max), decided(exact) {
         const PacketTag d;
@@ -53,11 +57,14 @@ struct PacketSearch {
         limit = limits.largest();
     }
 
-    HWY_INLINE void test(const PacketRays& ray, const TrianglePack& pack) {
+    HWY_INLINE void test(const PacketRays& ray, const Pack& pack) {
+        for (uint32_t first = 0; first < Width; first += kPart) test_part(ray, pack, first);
+    }
+    HWY_INLINE void test_part(const PacketRays& ray, const Pack& pack, uint32_t first) {
         const PacketTag d;
-        const PackEdges edges(pack, ray);
-        uint32_t open[TrianglePack::kSize], hit[TrianglePack::kSize], any = 0;
-        for (uint32_t lane = 0; lane < TrianglePack::kSize; ++lane) {
+        const PackEdges<Width> edges(pack, first, ray);
+        uint32_t open[kPart], hit[kPart], any = 0;
+        for (uint32_t lane = 0; lane < kPart; ++lane) {
             open[lane] = hit[lane] = 0;
             const PacketVector bound = hn::Set(d, edges.bounds[lane]), minus_bound = hn::Neg(bound);
             for (uint32_t i = 0; i < kVectors; ++i) {
@@ -76,23 +83,23 @@ struct PacketSearch {
             }
         }
         if (any == 0) return;
-        const PackPlanes planes(edges, ray);
-        for (uint32_t lane = 0; lane < TrianglePack::kSize; ++lane)
-            if (open[lane] != 0) keep(ray, pack, planes, lane, open[lane], hit[lane]);
+        const PackPlanes<Width> planes(edges, ray);
+        for (uint32_t lane = 0; lane < kPart; ++lane)
+            if (open[lane] != 0) keep(ray, pack, planes, first, lane, open[lane], hit[lane]);
         limit = limits.largest();
     }
-    static HWY_INLINE PacketVector function(const PacketRays& ray, const float n[3][4], uint32_t lane,
+    static HWY_INLINE PacketVector function(const PacketRays& ray, const float n[3][kPart], uint32_t lane,
                                             uint32_t i) {
         const PacketTag d;
         return hn::MulAdd(ray.shear_x[i], hn::Set(d, n[0][lane]),
                           hn::MulAdd(ray.shear_y[i], hn::Set(d, n[1][lane]), hn::Set(d, n[2][lane])));
     }
-    HWY_INLINE void keep(const PacketRays& ray, const TrianglePack& pack, const PackPlanes& planes,
-                         uint32_t lane, uint32_t open, uint32_t hit) {
+    HWY_INLINE void keep(const PacketRays& ray, const Pack& pack, const PackPlanes<Width>& planes,
+                         uint32_t first, uint32_t lane, uint32_t open, uint32_t hit) {
         const PacketTag d;
         const hn::RebindToUnsigned<PacketTag> du;
-        const uint32_t prim = pack.prims[lane];
-        const uint32_t triangle = static_cast<uint32_t>(&pack - packs) * TrianglePack::kSize + lane;
+        const uint32_t prim = pack.prims[first + lane];
+        const uint32_t triangle = static_cast<uint32_t>(&pack - packs) * Width + first + lane;
         for (uint32_t i = 0; i < kVectors; ++i) {
             const uint32_t all = (1u << kLanes) - 1;
             const uint32_t open_here = open >> (kLanes * i) & all, hit_here = hit >> (kLanes * i) & all;
@@ -130,13 +137,11 @@ struct PacketSearch {
                           du, triangles + kLanes * i);
             }
             for (; unknown != 0; unknown &= unknown - 1)
-                decide(kLanes * i + static_cast<uint32_t>(std::countr_zero(unknown)), pack, lane);
+                decide(kLanes * i + static_cast<uint32_t>(std::countr_zero(unknown)), pack, first + lane);
         }
     }
-    Triangle triangle(uint32_t i) const {
-        return packs[triangles[i] / TrianglePack::kSize].triangle(triangles[i] % TrianglePack::kSize);
-    }
-    HWY_NOINLINE void decide(uint32_t i, const TrianglePack& pack, uint32_t lane) {
+    Triangle triangle(uint32_t i) const { return packs[triangles[i] / Width].triangle(triangles[i] % Width); }
+    HWY_NOINLINE void decide(uint32_t i, const Pack& pack, uint32_t lane) {
         NoCount count;
         ClosestHits& closest = decided[i];
         if (!closest) {
@@ -197,7 +202,7 @@ struct PacketSearch {
     HWY_INLINE uint32_t round_t(const PacketRays& prepared, float* t) const {
         PacketTriangles best;
         for (uint32_t i = 0; i < kPacketSize; ++i)
-            best.set(i, packs[triangles[i] / TrianglePack::kSize], triangles[i] % TrianglePack::kSize);
+            best.set(i, packs[triangles[i] / Width], triangles[i] % Width);
         return best.round_t(prepared, t);
     }
     HWY_INLINE void write_lanes(uint32_t members, uint32_t hit, const float* t, Hit* hits) const {
@@ -282,7 +287,7 @@ HWY_INLINE void push_met(const typename WideBvh<Width>::Node& node, uint32_t ind
 }
 
 template <uint32_t Width>
-HWY_INLINE void find_closest(const WideBvh<Width>& bvh, const PacketRays& rays, PacketSearch& search) {
+HWY_INLINE void find_closest(const WideBvh<Width>& bvh, const PacketRays& rays, PacketSearch<Width>& search) {
     const Frustum<Width> frustum(rays);
     const auto* const nodes = bvh.nodes.data();
     PacketStack<Width> stack;
@@ -296,8 +301,8 @@ HWY_INLINE void find_closest(const WideBvh<Width>& bvh, const PacketRays& rays, 
         if (!rays.any_meets<Width>(node.lower[0], frustum.at, lane, search.limits)) continue;
         const WideChild child = node.children[lane];
         if (child.is_leaf()) {
-            const TrianglePack* pack = search.packs + child.first_pack();
-            const TrianglePack* const end = pack + child.pack_count();
+            const auto* pack = search.packs + child.first_pack();
+            const auto* const end = pack + child.pack_count();
             for (; pack != end; ++pack) search.test(rays, *pack);
         } else {
             push_met<Width>(nodes[child.node()], child.node(), frustum, rays.octant, search.limit, stack,
@@ -315,7 +320,7 @@ HWY_NOINLINE void trace_packets(const WideBvh<Width>& bvh, const Mesh& mesh, std
     size_t begin = 0;
     if (!bvh.nodes.empty()) {
         const FloatScene scene(bvh.nodes[0].bounds());
-        PacketSearch::ClosestHits decided[kPacketSize];
+        ClosestHits decided[kPacketSize];
         for (; begin + kPacketSize <= rays.size(); begin += kPacketSize) {
             if (begin / kPacketSize % kStopInterval == 0 && task.stopped()) return;
             const Ray* const first = rays.data() + begin;
@@ -325,7 +330,7 @@ HWY_NOINLINE void trace_packets(const WideBvh<Width>& bvh, const Mesh& mesh, std
                 const PacketRays packet(first, lanes, scene, left);
                 uint32_t members = packet.members;
                 if (HWY_LIKELY(std::popcount(members) > kFew)) {
-                    PacketSearch search(first, packet, bvh.packs.data(), decided);
+                    PacketSearch<Width> search(first, packet, bvh.packs.data(), decided);
                     find_closest<Width>(bvh, packet, search);
                     search.write(mesh, packet, hits.data() + begin);
                     left &= ~members;

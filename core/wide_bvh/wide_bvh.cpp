@@ -75,8 +75,8 @@ void traverse(const WideBvh<Width>& bvh, ClosestHit<mode>& ray, Counter& count, 
 template <uint32_t Width>
 template <Mode mode, class Counter>
 void WideBvh<Width>::closest_hit(const Mesh&, ClosestHit<mode>& closest, Counter& count) const {
-    traverse(*this, closest, count, [&](std::span<const TrianglePack> leaf) {
-        for (const TrianglePack& pack : leaf)
+    traverse(*this, closest, count, [&](std::span<const Pack> leaf) {
+        for (const Pack& pack : leaf)
             for (uint32_t lane = 0; lane < pack.count(); ++lane)
                 closest.test(pack.triangle(lane), pack.prims[lane], count);
         return true;
@@ -87,8 +87,8 @@ template <uint32_t Width>
 template <Mode mode, class Counter>
 bool WideBvh<Width>::any_hit(const Mesh&, ClosestHit<mode>& ray, Counter& count) const {
     bool is_hit = false;
-    traverse(*this, ray, count, [&](std::span<const TrianglePack> leaf) {
-        for (const TrianglePack& pack : leaf)
+    traverse(*this, ray, count, [&](std::span<const Pack> leaf) {
+        for (const Pack& pack : leaf)
             for (uint32_t lane = 0; lane < pack.count() && !is_hit; ++lane)
                 is_hit = ray.occludes(pack.triangle(lane), count);
         return !is_hit;
@@ -115,7 +115,7 @@ NodeList WideBvh<Width>::list_nodes() const {
             if (!child.is_leaf()) continue;
             view.first_ref = static_cast<uint32_t>(list.ref_prims.size());
             for (uint32_t p = 0; p < child.pack_count(); ++p) {
-                const TrianglePack& pack = packs[child.first_pack() + p];
+                const Pack& pack = packs[child.first_pack() + p];
                 list.ref_prims.insert(list.ref_prims.end(), pack.prims, pack.prims + pack.count());
             }
             view.ref_count = static_cast<uint32_t>(list.ref_prims.size()) - view.first_ref;

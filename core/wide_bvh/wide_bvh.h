@@ -8,13 +8,14 @@
 
 namespace boxwood {
 
-/// Four triangles, structure of arrays: coordinate `axis` of corner `corner` of triangle i is
+/// Triangles, structure of arrays: coordinate `axis` of corner `corner` of triangle i is
 /// corners[corner][axis][i]. Lanes without a triangle repeat the last one, whose primitive they carry too: a
 /// second test of it changes nothing.
+template <uint32_t Size>
 struct alignas(32) TrianglePack {
-    static constexpr uint32_t kSize = 4;
-    float corners[3][3][kSize];
-    uint32_t prims[kSize];
+    static constexpr uint32_t kSize = Size;
+    float corners[3][3][Size];
+    uint32_t prims[Size];
 
     Triangle triangle(uint32_t lane) const { return {corner(0, lane), corner(1, lane), corner(2, lane)}; }
     Vec3 corner(uint32_t i, uint32_t lane) const {
@@ -23,16 +24,15 @@ struct alignas(32) TrianglePack {
     /// Triangles that are no repetition; they stand in the first lanes.
     uint32_t count() const {
         uint32_t n = 1;
-        while (n < kSize && prims[n] != prims[n - 1]) ++n;
+        while (n < Size && prims[n] != prims[n - 1]) ++n;
         return n;
     }
+    /// Packs that hold so many triangles.
+    static constexpr uint32_t packs_for(uint32_t triangle_count) {
+        return (triangle_count + Size - 1) / Size;
+    }
 };
-static_assert(sizeof(TrianglePack) == 160);
-
-/// Packs that hold so many triangles.
-constexpr uint32_t pack_count(uint32_t triangle_count) {
-    return (triangle_count + TrianglePack::kSize - 1) / TrianglePack::kSize;
-}
+static_assert(sizeof(TrianglePack<4>) == 160 && sizeof(TrianglePack<8>) == 320);
 
 /// What a child of a wide node is, in 32 bits: an inner node, or a leaf of 1 to 31 consecutive packs, or
 /// nothing. Larger leaves of the input become several children with the same box.
@@ -64,6 +64,8 @@ struct WideBvh {
     static constexpr const char* kFamily = Width == 4 ? "4-wide BVH" : "8-wide BVH";
     static constexpr uint32_t kWidth = Width;
     static constexpr uint32_t kMaxDepth = 64;  ///< levels of nodes below the root at most
+    /// As many triangles as a node has children: vectors of one length test both.
+    using Pack = TrianglePack<Width>;
 
     /// Children stand in the first lanes; an empty lane has a box that no ray meets: lower = infinity, upper
     /// = -infinity, its child is empty.
@@ -99,7 +101,7 @@ struct WideBvh {
     static_assert(sizeof(Node) == (Width == 4 ? 128 : 256));
 
     Array<Node> nodes;
-    Array<TrianglePack> packs;
+    Array<Pack> packs;
     uint32_t leaf_count = 0;
 
     template <Mode mode, class Counter>
@@ -117,7 +119,7 @@ struct WideBvh {
                   const Task& task) const;
     /// Nodes first, as they stand; then the leaves in their order: leaf i is node nodes.size() + i.
     NodeList list_nodes() const;
-    size_t byte_count() const { return nodes.size() * sizeof(Node) + packs.size() * sizeof(TrianglePack); }
+    size_t byte_count() const { return nodes.size() * sizeof(Node) + packs.size() * sizeof(Pack); }
 };
 
 }  // namespace boxwood

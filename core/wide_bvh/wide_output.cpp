@@ -24,8 +24,9 @@ typename WideBvh<Width>::Node empty_node() {
     return node;
 }
 
-void set_pack(const Mesh& mesh, std::span<const uint32_t> prims, TrianglePack& pack) {
-    for (uint32_t lane = 0; lane < TrianglePack::kSize; ++lane) {
+template <uint32_t Size>
+void set_pack(const Mesh& mesh, std::span<const uint32_t> prims, TrianglePack<Size>& pack) {
+    for (uint32_t lane = 0; lane < Size; ++lane) {
         const uint32_t prim = prims[std::min(size_t{lane}, prims.size() - 1)];
         const Triangle triangle = mesh.triangle(prim);
         pack.prims[lane] = prim;
@@ -111,11 +112,12 @@ private:
     }
 
     uint32_t packs_of(uint32_t leaf) const {
-        return pack_count(counts_.are_few(leaf) ? counts_.of(leaf) : bvh_.nodes[leaf].count);
+        return WideBvh<Width>::Pack::packs_for(counts_.are_few(leaf) ? counts_.of(leaf)
+                                                                     : bvh_.nodes[leaf].count);
     }
 
     typename WideBvh<Width>::Node make_node(const Numbered& from, std::vector<uint32_t>& prims,
-                                            std::span<TrianglePack> packs) const {
+                                            std::span<typename WideBvh<Width>::Pack> packs) const {
         typename WideBvh<Width>::Node node = empty_node<Width>();
         node.first_leaf = from.first_leaf;
         uint32_t pack = from.first_pack;
@@ -134,10 +136,10 @@ private:
             add_prims(bvh_, source, prims);
             sort_once(prims);
             const uint32_t count = packs_of(part.node);
-            BOXWOOD_ASSERT(count == pack_count(static_cast<uint32_t>(prims.size())));
+            BOXWOOD_ASSERT(count == WideBvh<Width>::Pack::packs_for(static_cast<uint32_t>(prims.size())));
             BOXWOOD_ASSERT(count >= 1 && count <= WideChild::kMostPacks);
             node.children[lane] = WideChild::leaf(pack, count);
-            for (size_t first = 0; first < prims.size(); first += TrianglePack::kSize)
+            for (size_t first = 0; first < prims.size(); first += Width)
                 set_pack(mesh_, std::span(prims).subspan(first), packs[pack++]);
         }
         set_order<Width>(node);

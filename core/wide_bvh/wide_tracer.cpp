@@ -36,11 +36,11 @@ void any_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, std::span<const Ra
 
 /// The nearest hits of some rays, each known for sure, whose t is still to be computed: that is done for as
 /// many as a vector has lanes.
-template <Mode mode>
+template <Mode mode, uint32_t Width>
 class SureHits {
 public:
     /// At most FloatRays::kCount, between two calls of write.
-    HWY_INLINE void add(const Ray& ray, const TrianglePack& pack, uint32_t lane, Hit& hit) {
+    HWY_INLINE void add(const Ray& ray, const TrianglePack<Width>& pack, uint32_t lane, Hit& hit) {
         for (int axis = 0; axis < 3; ++axis) {
             origin_[axis][count_] = ray.origin[axis];
             direction_[axis][count_] = ray.direction[axis];
@@ -135,11 +135,13 @@ private:
 
 /// The nearest hit so far: as an interval of t as long as floats decide the order, by ClosestHit from the
 /// first time they do not.
-template <Mode mode>
+template <Mode mode, uint32_t Width>
 struct Search {
+    using Pack = TrianglePack<Width>;
+
     const Ray& ray;
     float limit;  ///< no hit beyond it counts
-    const TrianglePack* pack = nullptr;
+    const Pack* pack = nullptr;
     uint32_t lane = 0, prim = kNoIndex;
     float lower = 0.0f;  ///< of the best hit's t; its upper bound is `limit`
     std::optional<ClosestHit<mode> > decided;
@@ -147,7 +149,7 @@ struct Search {
     HWY_INLINE explicit Search(const Ray& searched) : ray(searched), limit(searched.t_max) {}
 
     /// Takes the lanes of a pack that are open.
-    HWY_INLINE void keep(const TrianglePack& hit_pack, const PackHits& hits) {
+    HWY_INLINE void keep(const Pack& hit_pack, const PackHits<Width>& hits) {
         for (uint32_t open = hits.open; open != 0; open &= open - 1) {
             const uint32_t i = static_cast<uint32_t>(std::countr_zero(open));
             if ((hits.sure >> i & 1) == 0 || decided) {
@@ -168,7 +170,7 @@ struct Search {
             }
         }
     }
-    HWY_NOINLINE void decide(const TrianglePack& hit_pack, uint32_t i) {
+    HWY_NOINLINE void decide(const Pack& hit_pack, uint32_t i) {
         NoCount count;
         if (!decided) {
             decided.emplace(ray);
@@ -182,7 +184,7 @@ struct Search {
         }
     }
     /// Sets the hit, or adds it to those whose t is still to be computed.
-    HWY_INLINE void finish(const Mesh& mesh, Hit& hit, SureHits<mode>& sure) const {
+    HWY_INLINE void finish(const Mesh& mesh, Hit& hit, SureHits<mode, Width>& sure) const {
         if (decided) {
             hit = decided->hit(mesh);
         } else if (prim != kNoIndex) {
@@ -194,14 +196,14 @@ struct Search {
 };
 
 /// Whether anything lies on the ray.
-template <Mode mode>
+template <Mode mode, uint32_t Width>
 struct Occlusion {
     const Ray& ray;
     std::optional<ClosestHit<mode> > decided;
 
     HWY_INLINE explicit Occlusion(const Ray& searched) : ray(searched) {}
 
-    HWY_INLINE bool is_hit(const TrianglePack& pack, const PackHits& hits) {
+    HWY_INLINE bool is_hit(const TrianglePack<Width>& pack, const PackHits<Width>& hits) {
         for (uint32_t open = hits.open; open != 0; open &= open - 1) {
             const uint32_t i = static_cast<uint32_t>(std::countr_zero(open));
             const bool is_sure =
@@ -210,7 +212,7 @@ struct Occlusion {
         }
         return false;
     }
-    HWY_NOINLINE bool decide(const TrianglePack& pack, uint32_t i) {
+    HWY_NOINLINE bool decide(const TrianglePack<Width>& pack, uint32_t i) {
         NoCount count;
         if (!decided) decided.emplace(ray);
         return decided->occludes(pack.triangle(i), count);
@@ -360,11 +362,11 @@ HWY_INLINE WideChild next_unordered(const typename WideBvh<Width>::Node& node, c
 
 template <Mode mode, uint32_t Width>
 HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>& rays, size_t i,
-                               Search<mode>& search) {
+                               Search<mode, Width>& search) {
     const BoxRay<Width> box_ray(rays, i);
-    const FloatRay<mode> ray(rays, i);
+    const FloatRay<mode, Width> ray(rays, i);
     const auto* const nodes = bvh.nodes.data();
-    const TrianglePack* const packs = bvh.packs.data();
+    const auto* const packs = bvh.packs.data();
     const uint32_t octant = rays.octant[i];
     Stack<Width> stack;
     uint32_t count = 1;
@@ -373,11 +375,11 @@ HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>&
         while (child.is_inner())
             child = next_child<Width>(nodes[child.node()], box_ray, octant, search.limit, stack, count);
         if (child.is_empty()) return;
-        const TrianglePack* pack = packs + child.first_pack();
-        const TrianglePack* const end = pack + child.pack_count();
+        const auto* pack = packs + child.first_pack();
+        const auto* const end = pack + child.pack_count();
         const float limit = search.limit;
         for (; pack != end; ++pack) {
-            PackHits hits;
+            PackHits<Width> hits;
             if (test_pack(*pack, ray, search.limit, hits)) search.keep(*pack, hits);
         }
         if (search.limit < limit) count = stack.prune(search.limit, count);
@@ -387,11 +389,11 @@ HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>&
 
 template <Mode mode, uint32_t Width>
 HWY_NOINLINE bool find_any(const WideBvh<Width>& bvh, const FloatRays<mode>& rays, size_t i,
-                           Occlusion<mode>& occlusion) {
+                           Occlusion<mode, Width>& occlusion) {
     const BoxRay<Width> box_ray(rays, i);
-    const FloatRay<mode> ray(rays, i);
+    const FloatRay<mode, Width> ray(rays, i);
     const auto* const nodes = bvh.nodes.data();
-    const TrianglePack* const packs = bvh.packs.data();
+    const auto* const packs = bvh.packs.data();
     const float limit = rays.t_max[i];
     HWY_ALIGN uint32_t stack[Stack<Width>::kSize];
     stack[0] = kNoIndex;
@@ -401,10 +403,10 @@ HWY_NOINLINE bool find_any(const WideBvh<Width>& bvh, const FloatRays<mode>& ray
         while (child.is_inner())
             child = next_unordered<Width>(nodes[child.node()], box_ray, limit, stack, count);
         if (child.is_empty()) return false;
-        const TrianglePack* pack = packs + child.first_pack();
-        const TrianglePack* const end = pack + child.pack_count();
+        const auto* pack = packs + child.first_pack();
+        const auto* const end = pack + child.pack_count();
         for (; pack != end; ++pack) {
-            PackHits hits;
+            PackHits<Width> hits;
             if (test_pack(*pack, ray, limit, hits) && occlusion.is_hit(*pack, hits)) return true;
         }
         child = {stack[--count]};
@@ -436,11 +438,11 @@ HWY_NOINLINE void closest_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, s
                                   std::span<Hit> hits, const Task& task) {
     std::ranges::fill(hits, Hit{});
     if (bvh.nodes.empty()) return;
-    SureHits<mode> sure;
+    SureHits<mode, Width> sure;
     for_each_ray<mode>(
         bvh, rays, task,
         [&](const FloatRays<mode>& prepared, size_t i, size_t number) {
-            Search<mode> search(rays[number]);
+            Search<mode, Width> search(rays[number]);
             find_closest<mode, Width>(bvh, prepared, i, search);
             search.finish(mesh, hits[number], sure);
         },
@@ -456,7 +458,7 @@ HWY_NOINLINE void any_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, std::
     for_each_ray<mode>(
         bvh, rays, task,
         [&](const FloatRays<mode>& prepared, size_t i, size_t number) {
-            Occlusion<mode> occlusion(rays[number]);
+            Occlusion<mode, Width> occlusion(rays[number]);
             occluded[number] = find_any<mode, Width>(bvh, prepared, i, occlusion) ? 1 : 0;
         },
         [&](size_t number) { occluded[number] = plain_any_hit<mode>(bvh, mesh, rays[number], task) ? 1 : 0; },
