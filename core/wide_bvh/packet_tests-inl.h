@@ -357,7 +357,8 @@ private:
     }
 };
 
-/// All rays of a packet as one, as vectors over the lanes of a node.
+/// All rays of a packet as one, as vectors over the lanes of a node: no box that a ray meets is missed, nor
+/// entered later than by that ray. See PacketBounds.
 template <uint32_t Width>
 struct Frustum {
     using D = hn::CappedTag<float, Width>;
