@@ -86,8 +86,17 @@ CameraRaster::CameraRaster(const CameraFrame& frame, int width, int height) : fr
 
 void CameraRaster::rays_through(std::span<const uint32_t> pixels, std::span<Ray> rays) const {
     const auto width = static_cast<uint32_t>(columns_.size());
-    for (size_t i = 0; i < pixels.size(); ++i)
-        rays[i] = ray_at(frame_, columns_[pixels[i] % width] + rows_[pixels[i] / width]);
+    Ray ray = ray_at(frame_, DVec3(0.0));
+    for (size_t i = 0; i < pixels.size(); ++i) {
+        const uint32_t y = pixels[i] / width;
+        const DVec3 offset = columns_[pixels[i] - y * width] + rows_[y];
+        if (frame_.orthographic) {
+            ray.origin = Vec3(frame_.eye + offset);
+        } else {
+            ray.direction = Vec3(frame_.forward + offset);
+        }
+        rays[i] = ray;
+    }
 }
 
 Camera fit_camera(const Box& box, float fov, const Vec3& up) {

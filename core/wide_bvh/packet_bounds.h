@@ -20,6 +20,15 @@ namespace boxwood {
 /// (|D'| - eD), at most 16/15 of that over |D'| where |D'| > 16 eD. The inverse, its product with N, 1/d_z,
 /// the product with that and the ends are rounded: 5u |t|, at most 5u / |D'| times the monomials of N, and 5u
 /// eD / |D'| |t d_z|: of second order. 13u instead of 8u.
+///
+/// Rounded t, in double, u = 2^-53. As interval_of_t, but N is multiplied with 1 / D, both rounded: 3u |t|
+/// with the ends instead of 2u, and eD < 2^-40 |D| is asked for, so that |D| - eD is |D| to second order.
+///
+/// The packet as one. With r the inverse of any ray, r' that of the least and r" that of the largest size, (p
+/// - o) r is at least (p - o) r' and at most (p - o) r" where it is not negative. A near plane where it is
+/// negative lies before t = 0, which is a lower bound of its own; behind a far plane no ray meets the box.
+/// The pad grows with |r| and is taken at r", with what moved components add, so it covers the roundings of
+/// r' and r", which are no larger, and those of r itself.
 struct PacketBounds : FloatBounds {
     static constexpr float kSharedEdge = 8.0f * kUnit * kSecondOrder;
     static constexpr float kNumerator = 13.0f * kUnit * kSecondOrder;

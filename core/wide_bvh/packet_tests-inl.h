@@ -30,12 +30,14 @@ using PacketTag = hn::CappedTag<float, kPacketSize>;
 using PacketVector = hn::Vec<PacketTag>;
 constexpr uint32_t kLanes = hn::MaxLanes(PacketTag()), kVectors = kPacketSize / kLanes;
 
-/// Bit i: lane i.
-HWY_INLINE uint32_t packet_bits(hn::Mask<PacketTag> mask) {
+/// Bit i: lane i, of up to 16.
+template <class D>
+HWY_INLINE uint32_t mask_bits(D d, hn::Mask<D> mask) {
     uint8_t bytes[8] = {};
-    hn::StoreMaskBits(PacketTag(), mask, bytes);
+    hn::StoreMaskBits(d, mask, bytes);
     return bytes[0] | static_cast<uint32_t>(bytes[1]) << 8;
 }
+HWY_INLINE uint32_t packet_bits(hn::Mask<PacketTag> mask) { return mask_bits(PacketTag(), mask); }
 HWY_INLINE hn::Mask<PacketTag> packet_mask(uint32_t bits) {
     const uint8_t bytes[8] = {static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8)};
     return hn::LoadMaskBits(PacketTag(), bytes);
@@ -285,6 +287,21 @@ struct PacketTriangles {
         corners[corner][1][i] = pack.corners[corner][1][lane];
         corners[corner][2][i] = pack.corners[corner][2][lane];
     }
+    template <uint32_t Size>
+    HWY_INLINE void set_all(const TrianglePack<Size>& pack, uint32_t lane) {
+        fill_corner(pack, lane, 0);
+        fill_corner(pack, lane, 1);
+        fill_corner(pack, lane, 2);
+    }
+    template <uint32_t Size>
+    HWY_INLINE void fill_corner(const TrianglePack<Size>& pack, uint32_t lane, uint32_t corner) {
+        const PacketTag d;
+        for (uint32_t i = 0; i < kPacketSize; i += kLanes) {
+            hn::Store(hn::Set(d, pack.corners[corner][0][lane]), d, corners[corner][0] + i);
+            hn::Store(hn::Set(d, pack.corners[corner][1][lane]), d, corners[corner][1] + i);
+            hn::Store(hn::Set(d, pack.corners[corner][2][lane]), d, corners[corner][2] + i);
+        }
+    }
     /// Sets t of the rays and their triangles' planes, rounded once; those whose bits are set are right. As
     /// interval_of_t does.
     HWY_INLINE uint32_t round_t(const PacketRays& rays, float* t) const {
@@ -321,11 +338,9 @@ struct PacketTriangles {
             const auto lower = hn::DemoteTo(df, hn::Sub(quotient, error)),
                        upper = hn::DemoteTo(df, hn::Add(quotient, error));
             hn::Store(upper, df, t + first);
-            uint8_t equal[8] = {}, sure[8] = {};
-            hn::StoreMaskBits(df, hn::Eq(lower, upper), equal);
-            hn::StoreMaskBits(
-                d, hn::Lt(denominator_error, hn::Mul(hn::Set(d, 0x1p-40), hn::Abs(denominator))), sure);
-            right |= static_cast<uint32_t>(equal[0] & sure[0]) << first;
+            const auto is_sure =
+                hn::Lt(denominator_error, hn::Mul(hn::Set(d, 0x1p-40), hn::Abs(denominator)));
+            right |= (mask_bits(df, hn::Eq(lower, upper)) & mask_bits(d, is_sure)) << first;
         }
         return right;
     }
@@ -346,7 +361,8 @@ private:
     }
 };
 
-/// All rays of a packet as one, as vectors over the lanes of a node.
+/// All rays of a packet as one, as vectors over the lanes of a node: no box that a ray meets is missed, nor
+/// entered later than by that ray. See PacketBounds.
 template <uint32_t Width>
 struct Frustum {
     using D = hn::CappedTag<float, Width>;

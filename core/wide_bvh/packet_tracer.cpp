@@ -57,8 +57,9 @@ struct PacketSearch {
         limit = limits.largest();
     }
 
-    HWY_INLINE void test(const PacketRays& ray, const Pack& pack) {
-        for (uint32_t first = 0; first < Width; first += kPart) test_part(ray, pack, first);
+    HWY_INLINE void test(const PacketRays& ray, std::span<const Pack> leaf) {
+        for (const Pack& pack : leaf)
+            for (uint32_t first = 0; first < Width; first += kPart) test_part(ray, pack, first);
     }
     HWY_INLINE void test_part(const PacketRays& ray, const Pack& pack, uint32_t first) {
         const PacketTag d;
@@ -201,9 +202,20 @@ struct PacketSearch {
     }
     HWY_INLINE uint32_t round_t(const PacketRays& prepared, float* t) const {
         PacketTriangles best;
-        for (uint32_t i = 0; i < kPacketSize; ++i)
-            best.set(i, packs[triangles[i] / Width], triangles[i] % Width);
+        if (are_same()) {
+            best.set_all(packs[triangles[0] / Width], triangles[0] % Width);
+        } else {
+            for (uint32_t i = 0; i < kPacketSize; ++i)
+                best.set(i, packs[triangles[i] / Width], triangles[i] % Width);
+        }
         return best.round_t(prepared, t);
+    }
+    HWY_INLINE bool are_same() const {
+        const hn::RebindToUnsigned<PacketTag> du;
+        auto same = hn::Eq(hn::Load(du, triangles), hn::Set(du, triangles[0]));
+        for (uint32_t i = 1; i < kVectors; ++i)
+            same = hn::And(same, hn::Eq(hn::Load(du, triangles + kLanes * i), hn::Set(du, triangles[0])));
+        return hn::AllTrue(du, same);
     }
     HWY_INLINE void write_lanes(uint32_t members, uint32_t hit, const float* t, Hit* hits) const {
         static_assert(sizeof(Hit) == 2 * sizeof(float) && offsetof(Hit, prim) == sizeof(float));
@@ -235,21 +247,20 @@ struct PacketStack {
     float entries[kSize];
 };
 
-/// Adds the children whose boxes the frustum meets to the stack, the first in the order of the octant last.
+/// Adds the children whose boxes the frustum meets to the stack, but for the first in the order of the
+/// octant, whose lane is returned; Width if there is none.
 template <uint32_t Width>
-HWY_INLINE void push_met(const typename WideBvh<Width>::Node& node, uint32_t index,
-                         const Frustum<Width>& frustum, uint32_t octant, float limit,
-                         PacketStack<Width>& stack, uint32_t& count) {
+HWY_INLINE uint32_t push_met(const typename WideBvh<Width>::Node& node, uint32_t index,
+                             const Frustum<Width>& frustum, uint32_t octant, float limit,
+                             PacketStack<Width>& stack, uint32_t& count) {
     const hn::CappedTag<float, Width> d;
     const float* const planes = node.lower[0];
     if constexpr (hn::MaxLanes(d) == Width) {
         const hn::RebindToUnsigned<decltype(d)> du;
         const auto entry = frustum.entry(planes);
         const auto is_met = hn::Le(entry, frustum.exit(planes, limit));
-        uint8_t bytes[8] = {};
-        hn::StoreMaskBits(d, is_met, bytes);
-        const uint32_t met = bytes[0];
-        if (met == 0) return;
+        const uint32_t met = mask_bits(d, is_met);
+        if ((met & (met - 1)) == 0) return met == 0 ? Width : static_cast<uint32_t>(std::countr_zero(met));
         // The lanes back to front.
         constexpr uint32_t kBits = Width == 4 ? 2 : 3;
         uint32_t order;
@@ -265,24 +276,25 @@ HWY_INLINE void push_met(const typename WideBvh<Width>::Node& node, uint32_t ind
         const auto children = hn::BitCast(d, hn::Or(lanes, hn::Set(du, index * Width)));
         hn::StoreU(hn::Compress(entries, is_pushed), d, stack.entries + count);
         hn::StoreU(hn::BitCast(du, hn::Compress(children, is_pushed)), du, stack.children + count);
-        count += static_cast<uint32_t>(std::popcount(met));
+        count += static_cast<uint32_t>(std::popcount(met)) - 1;
+        return stack.children[count] % Width;
     } else {
         HWY_ALIGN float entries[Width];
         uint32_t met = 0;
         for (size_t first = 0; first < Width; first += hn::Lanes(d)) {
             const auto entry = frustum.entry(planes + first);
             hn::Store(entry, d, entries + first);
-            uint8_t bytes[8] = {};
-            hn::StoreMaskBits(d, hn::Le(entry, frustum.exit(planes + first, limit)), bytes);
-            met |= static_cast<uint32_t>(bytes[0]) << first;
+            met |= mask_bits(d, hn::Le(entry, frustum.exit(planes + first, limit))) << first;
         }
         for (uint32_t rank = Width; met != 0; --rank) {
             const uint32_t lane = node.lane_at(octant, rank - 1);
             if ((met >> lane & 1) == 0) continue;
             met &= ~(1u << lane);
+            if (met == 0) return lane;
             stack.children[count] = index * Width + lane;
             stack.entries[count++] = entries[lane];
         }
+        return Width;
     }
 }
 
@@ -291,22 +303,27 @@ HWY_INLINE void find_closest(const WideBvh<Width>& bvh, const PacketRays& rays, 
     const Frustum<Width> frustum(rays);
     const auto* const nodes = bvh.nodes.data();
     PacketStack<Width> stack;
-    uint32_t count = 0;
-    push_met<Width>(nodes[0], 0, frustum, rays.octant, search.limit, stack, count);
-    while (count != 0) {
-        --count;
-        if (stack.entries[count] > search.limit) continue;
-        const uint32_t index = stack.children[count] / Width, lane = stack.children[count] % Width;
-        const auto& node = nodes[index];
-        if (!rays.any_meets<Width>(node.lower[0], frustum.at, lane, search.limits)) continue;
-        const WideChild child = node.children[lane];
-        if (child.is_leaf()) {
-            const auto* pack = search.packs + child.first_pack();
-            const auto* const end = pack + child.pack_count();
-            for (; pack != end; ++pack) search.test(rays, *pack);
-        } else {
-            push_met<Width>(nodes[child.node()], child.node(), frustum, rays.octant, search.limit, stack,
-                            count);
+    uint32_t count = 0, index = 0;
+    while (true) {
+        uint32_t lane =
+            push_met<Width>(nodes[index], index, frustum, rays.octant, search.limit, stack, count);
+        while (true) {
+            if (lane != Width) {
+                const auto& node = nodes[index];
+                const WideChild child = node.children[lane];
+                if (!child.is_leaf()) {
+                    index = child.node();
+                    break;
+                }
+                if (rays.any_meets<Width>(node.lower[0], frustum.at, lane, search.limits))
+                    search.test(rays, std::span(search.packs + child.first_pack(), child.pack_count()));
+            }
+            do {
+                if (count == 0) return;
+                --count;
+            } while (stack.entries[count] > search.limit);
+            index = stack.children[count] / Width;
+            lane = stack.children[count] % Width;
         }
     }
 }
