@@ -133,7 +133,9 @@ std::string file_of(const std::string& scene) { return scene.substr(scene.find_l
 
 }  // namespace
 
-std::vector<Recipe> quality_recipes() { return {parse_recipe("bvh-sweep-sah")}; }
+std::vector<Recipe> quality_recipes() {
+    return {parse_recipe("preview"), parse_recipe("balanced"), parse_recipe("best")};
+}
 
 double PeerRow::mrays_per_s() const { return static_cast<double>(rays) / median_of(ms) / 1000.0; }
 

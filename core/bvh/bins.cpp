@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/assert.h"
+
 namespace boxwood {
 
 namespace {
@@ -28,13 +30,14 @@ struct Sweep {
         for (int axis = 0; axis < 3; ++axis) boxes[axis].extend(bin[axis].lower, bin[axis].upper);
         counts += count;
     }
-    /// Count * half area; NaN where there is no box.
-    template <bool is_scaled>
+    /// Blocks * half area; NaN where there is no box.
+    template <bool is_scaled, int log_block>
     Float4 costs(float scale) const {
         const auto extent = [&](const Box4& box) {
             return is_scaled ? scaled_extent(box, scale) : box.upper - box.lower;
         };
-        return to_float(counts) * half_areas(extent(boxes[0]), extent(boxes[1]), extent(boxes[2]));
+        const Int4 blocks = (counts + ((1 << log_block) - 1)) >> log_block;
+        return to_float(blocks) * half_areas(extent(boxes[0]), extent(boxes[1]), extent(boxes[2]));
     }
 };
 
@@ -75,13 +78,13 @@ void Bins::add(const Bins& other, int bin_count) {
     }
 }
 
-template <bool is_scaled>
+template <bool is_scaled, int log_block>
 BinSplit Bins::sweep(int bin_count, uint32_t count, float scale) const {
     Float4 right_costs[kMaxBins];
     Sweep right;
     for (int i = bin_count - 1; i > 0; --i) {
         right.add(boxes[i], counts[i]);
-        right_costs[i] = right.costs<is_scaled>(scale);
+        right_costs[i] = right.costs<is_scaled, log_block>(scale);
     }
     Sweep left;
     Float4 best_cost = splat(std::numeric_limits<float>::infinity());
@@ -89,7 +92,8 @@ BinSplit Bins::sweep(int bin_count, uint32_t count, float scale) const {
     const auto all = static_cast<int32_t>(count);
     for (int i = 1; i < bin_count; ++i) {
         left.add(boxes[i - 1], counts[i - 1]);
-        const Float4 cost = left.costs<is_scaled>(scale) + right_costs[i];  // NaN where a side is empty
+        const Float4 cost =
+            left.costs<is_scaled, log_block>(scale) + right_costs[i];  // NaN where a side is empty
         const Int4 imbalance = absolute(left.counts + left.counts - all);
         const Int4 is_better = (cost < best_cost) | ((cost == best_cost) & (imbalance < best_imbalance));
         best_cost = is_better ? cost : best_cost;
@@ -109,9 +113,14 @@ BinSplit Bins::sweep(int bin_count, uint32_t count, float scale) const {
     return best;
 }
 
-BinSplit Bins::cheapest_split(int bin_count, uint32_t count, float area_scale) const {
-    return area_scale == 1.0f ? sweep<false>(bin_count, count, area_scale)
-                              : sweep<true>(bin_count, count, area_scale);
+BinSplit Bins::cheapest_split(int bin_count, uint32_t count, float area_scale, int log_block) const {
+    BOXWOOD_ASSERT(log_block == 0 || log_block == 2);
+    if (log_block == 0) {
+        return area_scale == 1.0f ? sweep<false, 0>(bin_count, count, area_scale)
+                                  : sweep<true, 0>(bin_count, count, area_scale);
+    }
+    return area_scale == 1.0f ? sweep<false, 2>(bin_count, count, area_scale)
+                              : sweep<true, 2>(bin_count, count, area_scale);
 }
 
 Box4 Bins::box_of(int axis, int begin, int end) const {

@@ -48,15 +48,16 @@ struct Bins {
     void fill(std::span<const BinRef> refs, const Binning& binning);
     void add(const Bins& other, int bin_count);
     /// Cheapest plane between two bins; the more even one of equally cheap ones; then the first axis, the
-    /// first plane. Lengths are multiplied by area_scale, a power of two.
-    BinSplit cheapest_split(int bin_count, uint32_t count, float area_scale) const;
+    /// first plane. Lengths are multiplied by area_scale, a power of two. References count by blocks of
+    /// 1 << log_block, 0 or 2, the last of a side as a whole one.
+    BinSplit cheapest_split(int bin_count, uint32_t count, float area_scale, int log_block = 0) const;
     /// Box of the bins [begin, end) of an axis.
     Box4 box_of(int axis, int begin, int end) const;
     /// References in the bins [0, end) of an axis.
     uint32_t count_of(int axis, int end) const;
 
 private:
-    template <bool is_scaled>
+    template <bool is_scaled, int log_block>
     BinSplit sweep(int bin_count, uint32_t count, float scale) const;
 };
 

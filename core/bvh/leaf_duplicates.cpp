@@ -7,9 +7,6 @@
 
 namespace boxwood {
 
-namespace {
-
-/// Whether any primitive has several references: they are adjacent.
 bool has_pieces(std::span<const PrimRef> refs) {
     std::atomic<bool> found{false};
     if (refs.empty()) return false;
@@ -20,8 +17,6 @@ bool has_pieces(std::span<const PrimRef> refs) {
     });
     return found;
 }
-
-}  // namespace
 
 void merge_duplicates(Bvh2& bvh, std::span<const PrimRef> refs) {
     if (bvh.nodes.empty() || !has_pieces(refs)) return;

@@ -24,6 +24,7 @@
 #include "core/refs/whole_boxes.h"
 #include "core/volume_bvh/bounding_volumes.h"
 #include "core/wide_bvh/collapse.h"
+#include "core/wide_bvh/qualities.h"
 
 namespace boxwood {
 namespace {
@@ -49,6 +50,11 @@ constexpr CatalogEntry kBuilders[] = {
     row<SpatialSplits>("bvh-spatial-splits", "BVH, spatial splits", "Stich, Friedrich and Dietrich 2009"),
     row<Morton>("bvh-morton", "BVH, Morton order", "Lauterbach et al. 2009, section 3"),
     row<Ploc>("bvh-ploc", "BVH, locally-ordered clustering", "Meister and Bittner 2018, section 3"),
+    row<Preview>("preview", "8-wide BVH, built fastest",
+                 "Lauterbach et al. 2009; Wald, Benthin and Boulos 2008"),
+    row<Balanced>("balanced", "8-wide BVH, built fast for speed", "Wald 2007; Ylitie, Karras and Laine 2017"),
+    row<Best>("best", "8-wide BVH, traced fastest",
+              "Stich et al. 2009; Meister and Bittner 2018; Ylitie et al. 2017"),
     row<BspSah>("bsp", "BSP, planes of triangles and axes",
                 "Fuchs, Kedem and Naylor 1980; Ize, Wald and Parker 2008; Kerbl, lecture"),
     row<KdMedian>("kd-median", "kd-tree, median", "Bentley 1975; Kaplan 1985; Kerbl, lecture, \"k-d tree\""),

@@ -1,6 +1,5 @@
 #include "core/wide_bvh/least_cost_plan.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "core/base/parallel.h"
@@ -29,14 +28,10 @@ LeastCostPlan<Width>::LeastCostPlan(const Bvh2& bvh, const PrimCounts& counts, c
 }
 
 template <uint32_t Width>
-typename LeastCostPlan<Width>::Costs LeastCostPlan<Width>::solve(uint32_t node, uint32_t depth) {
+LeastCosts<Width> LeastCostPlan<Width>::solve(uint32_t node, uint32_t depth) {
     const Bvh2::Node& source = bvh_.nodes[node];
-    Costs left{}, right{};
-    if (source.is_leaf()) {
-        left.least.fill(leaf_cost(node, source.count));
-        left.most = 1;
-        return left;
-    }
+    if (source.is_leaf()) return leaf_costs<Width>(leaf_cost(node, source.count));
+    LeastCosts<Width> left{}, right{};
     if (task_.stopped()) return left;
     const auto solve_left = [&] { left = solve(source.first, depth + 1); };
     const auto solve_right = [&] { right = solve(source.first + 1, depth + 1); };
@@ -50,41 +45,11 @@ typename LeastCostPlan<Width>::Costs LeastCostPlan<Width>::solve(uint32_t node, 
 }
 
 template <uint32_t Width>
-typename LeastCostPlan<Width>::Costs LeastCostPlan<Width>::choose(uint32_t node, const Costs& left,
-                                                                  const Costs& right) {
-    // D(n, j) at [j - 1] first; where j is more than both subtrees have a use for, that of the largest such.
-    std::array<double, Width> best;
-    Choice& choice = choice_of(node);
-    choice.fill(0);
-    const uint32_t useful = std::min(left.most + right.most, Width);
-    for (uint32_t j = 2; j <= useful; ++j) {
-        best[j - 1] = std::numeric_limits<double>::infinity();
-        const uint32_t first = j > right.most ? j - right.most : 1, last = std::min(left.most, j - 1);
-        for (uint32_t k = first; k <= last; ++k) {
-            const double cost = left.least[k - 1] + right.least[j - k - 1];
-            if (!(cost < best[j - 1])) continue;
-            best[j - 1] = cost;
-            choice[j - 1] = static_cast<uint8_t>(k);
-        }
-    }
-    const double as_node = probability(node) * costs_.node + best[useful - 1];
+LeastCosts<Width> LeastCostPlan<Width>::choose(uint32_t node, const LeastCosts<Width>& left,
+                                               const LeastCosts<Width>& right) {
     const double as_leaf =
         counts_.are_few(node) ? leaf_cost(node, counts_.of(node)) : std::numeric_limits<double>::infinity();
-    const bool is_leaf = as_leaf <= as_node;
-    choice[0] = is_leaf ? 1 : 0;
-    best[0] = is_leaf ? as_leaf : as_node;
-    uint32_t most = 1;
-    for (uint32_t i = 2; i <= useful; ++i) {
-        // Where it costs the same: one leaf rather than many, but many nodes on one level rather than two.
-        if (best[i - 1] < best[i - 2] || (best[i - 1] == best[i - 2] && !is_leaf)) {
-            most = i;
-        } else {
-            best[i - 1] = best[i - 2];
-            choice[i - 1] = 0;
-        }
-    }
-    std::fill(best.begin() + most, best.end(), best[most - 1]);
-    return {best, most};
+    return least_costs<Width>(left, right, probability(node) * costs_.node, as_leaf, choice_of(node));
 }
 
 template <uint32_t Width>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/wide_bvh/collapse.h"
+#include "core/wide_bvh/least_costs.h"
 #include "core/wide_bvh/prim_counts.h"
 #include "core/wide_bvh/wide_output.h"
 
@@ -23,16 +24,10 @@ public:
     WideParts<Width> children_of(uint32_t node) const override;
 
 private:
-    struct Costs {
-        std::array<double, Width> least;  ///< C(n, i) at [i - 1], up to i = Width for the root's children
-        uint32_t most;                    ///< more children than so many cost no less
-    };
-    /// What the minima are taken at. At [0] whether one child is a leaf; at [i - 1] the children that the
-    /// left subtree has of i, 0 where i - 1 children cost no more.
-    using Choice = std::array<uint8_t, Width>;
+    using Choice = LeastCostChoice<Width>;
 
-    Costs solve(uint32_t node, uint32_t depth);
-    Costs choose(uint32_t node, const Costs& left, const Costs& right);
+    LeastCosts<Width> solve(uint32_t node, uint32_t depth);
+    LeastCosts<Width> choose(uint32_t node, const LeastCosts<Width>& left, const LeastCosts<Width>& right);
     double leaf_cost(uint32_t node, uint32_t prim_count) const;
     double probability(uint32_t node) const;
     Choice& choice_of(uint32_t inner) const { return choices_[bvh_.nodes[inner].first / 2]; }

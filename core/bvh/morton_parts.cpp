@@ -1,0 +1,54 @@
+#include "core/bvh/morton_parts.h"
+
+namespace boxwood {
+
+namespace {
+
+/// Where a large range is split.
+uint32_t middle(const MortonOrder& order, RefRange range, uint32_t depth) {
+    const uint32_t half = range.begin + range.count() / 2;
+    if (must_halve(depth, range.count())) return half;
+    const uint32_t difference = order.leading_code(range.begin) ^ order.leading_code(range.end - 1);
+    if (difference != 0) {
+        const uint64_t bit = uint64_t{std::bit_floor(difference)} << 32;
+        const auto keys = std::span(order.keys).subspan(range.begin, range.count());
+        const auto mid =
+            std::partition_point(keys.begin(), keys.end(), [bit](uint64_t key) { return (key & bit) == 0; });
+        return range.begin + static_cast<uint32_t>(mid - keys.begin());
+    }
+    const auto levels = std::span(order.levels).subspan(range.begin, range.count() - 1);
+    const auto least = std::min_element(levels.begin(), levels.end());
+    if (*least == MortonOrder::kEqual) return half;
+    return range.begin + static_cast<uint32_t>(least - levels.begin()) + 1;
+}
+
+}  // namespace
+
+std::vector<TopNode> divide_morton(const MortonOrder& order, uint32_t part_size) {
+    std::vector<TopNode> top{{{0, static_cast<uint32_t>(order.keys.size())}, 0}};
+    for (size_t i = 0; i < top.size(); ++i) {
+        const RefRange range = top[i].range;
+        if (range.count() > part_size) divide(top, i, middle(order, range, top[i].depth));
+    }
+    return top;
+}
+
+MortonPartSplits::MortonPartSplits(const MortonOrder& order, RefRange range)
+    : order_(order), first_(range.begin) {
+    for (uint32_t i = range.begin; i + 1 < range.end; ++i) {
+        uint32_t last = kHalve;
+        while (size_ > 0 && order.levels[stack_[size_ - 1]] > order.levels[i]) last = stack_[--size_];
+        left_[i - first_] = last;
+        right_[i - first_] = kHalve;
+        if (size_ > 0) right_[stack_[size_ - 1] - first_] = i;
+        stack_[size_++] = i;
+    }
+}
+
+MortonDivision MortonPartSplits::divide(RefRange range, uint32_t depth, uint32_t split) const {
+    if (split == kHalve || order_.levels[split] == MortonOrder::kEqual || must_halve(depth, range.count()))
+        return {range.begin + range.count() / 2, kHalve, kHalve};
+    return {split + 1, left_[split - first_], right_[split - first_]};
+}
+
+}  // namespace boxwood

@@ -1,0 +1,132 @@
+#include "core/wide_bvh/qualities.h"
+
+#include <optional>
+
+#include "core/base/assert.h"
+#include "core/bvh/binned_sah.h"
+#include "core/bvh/leaf_duplicates.h"
+#include "core/bvh/morton.h"
+#include "core/bvh/optimize.h"
+#include "core/bvh/spatial_splits.h"
+#include "core/wide_bvh/binned_part.h"
+#include "core/wide_bvh/collapse.h"
+#include "core/wide_bvh/morton_part.h"
+#include "core/wide_bvh/part_top.h"
+
+namespace boxwood {
+
+namespace {
+
+constexpr uint32_t kBinnedPartSize = 4096;  ///< triangles of a part of `balanced`, at most
+constexpr size_t kPartsAtOnce = 8;          ///< that a thread takes with the same memory
+
+PartCosts part_costs() {
+    const Collapse<8> collapse;
+    return {static_cast<double>(collapse.node_cost), static_cast<double>(collapse.pack_cost),
+            static_cast<uint32_t>(collapse.leaf_size) / Pack8::kSize};
+}
+
+/// Whether each reference is a triangle, and each triangle of the mesh a reference: they stand in the same
+/// order.
+bool are_whole(const Mesh& mesh, std::span<const PrimRef> refs) {
+    return refs.size() == mesh.triangle_count() && !has_pieces(refs);
+}
+
+std::vector<TopNode> parts_of(std::span<const TopNode> top) {
+    std::vector<TopNode> parts;
+    for (const TopNode& node : top)
+        if (node.is_part()) parts.push_back(node);
+    return parts;
+}
+
+/// Calls make_worker() for a thread's memory and worker(part) with it for each part.
+template <class MakeWorker>
+void for_parts(size_t count, const Task& task, const MakeWorker& make_worker) {
+    parallel_for(count, kPartsAtOnce, [&](size_t begin, size_t end) {
+        auto worker = make_worker();
+        for (size_t i = begin; i < end && !task.stopped(); ++i) worker(i);
+    });
+}
+
+WideBvh<8> build_preview(const Mesh& mesh, std::span<const PrimRef> refs, const Task& task) {
+    const MortonOrder order = morton_order(refs, Pack8::kSize, task);
+    if (task.stopped()) return {};
+    const std::vector<TopNode> top = divide_morton(order, kMortonPartSize), nodes = parts_of(top);
+    Array<uint8_t> shapes(2 * refs.size());
+    std::vector<std::optional<MortonPart>> parts(nodes.size());
+    parallel_for(parts.size(), kPartsAtOnce, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i)
+            parts[i].emplace(order, nodes[i].range, nodes[i].depth,
+                             std::span(shapes).subspan(size_t{2} * nodes[i].range.begin));
+    });
+    std::vector<uint32_t> first_packs;
+    uint32_t pack_count = 0;
+    for (const std::optional<MortonPart>& part : parts) {
+        first_packs.push_back(pack_count);
+        pack_count += part->pack_count();
+    }
+    Array<Pack8> packs(pack_count);
+    const PackFiller filler(mesh);
+    std::vector<WidePiece> pieces(parts.size());
+    for_parts(parts.size(), task, [&] {
+        return [&, tree = PartTree(part_costs(), kMortonPartSize)](size_t i) mutable {
+            const MortonPart& part = *parts[i];
+            const PartRoot root =
+                part.build(filler, std::span(packs).subspan(first_packs[i], part.pack_count()), tree);
+            pieces[i] = make_piece(tree, root, part.pack_count());
+        };
+    });
+    if (task.stopped()) return {};
+    JoinedPieces joined = join_pieces(top_of_nodes(top, pieces, part_costs()), pieces);
+    BOXWOOD_ASSERT(joined.first_packs == first_packs);
+    joined.bvh.packs = std::move(packs);
+    return std::move(joined.bvh);
+}
+
+WideBvh<8> build_balanced(const Mesh& mesh, std::span<const PrimRef> refs, const Task& task) {
+    const MortonOrder order = morton_order(refs, Pack8::kSize, task);
+    if (task.stopped()) return {};
+    const std::vector<TopNode> parts = parts_of(divide_morton(order, kBinnedPartSize));
+    std::vector<WidePiece> pieces(parts.size());
+    Array<PackPrims> prims(refs.size());  // of each part where its references begin
+    for_parts(parts.size(), task, [&] {
+        return [&, tree = PartTree(part_costs(), kBinnedPartSize),
+                build = std::make_unique<BinnedPartBuild>()](size_t i) mutable {
+            const PartRoot root = build->build(refs, order, parts[i].range, kMostTopDepth, tree);
+            std::ranges::copy(build->packs(), &prims[parts[i].range.begin]);
+            pieces[i] = make_piece(tree, root, static_cast<uint32_t>(build->packs().size()));
+        };
+    });
+    if (task.stopped()) return {};
+    JoinedPieces joined = join_pieces(top_by_cost(pieces, part_costs()), pieces);
+    parallel_for(parts.size(), kPartsAtOnce, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i)
+            fill_packs(mesh, std::span(prims).subspan(parts[i].range.begin, pieces[i].pack_count),
+                       std::span(joined.bvh.packs).subspan(joined.first_packs[i], pieces[i].pack_count));
+    });
+    return std::move(joined.bvh);
+}
+
+}  // namespace
+
+WideBvh<8> Preview::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const {
+    if (refs.empty()) return {};
+    if (are_whole(mesh, refs)) return build_preview(mesh, refs, task);
+    return Collapse<8>{}.apply(mesh, refs, Morton{}.build(mesh, refs, task), task);
+}
+
+WideBvh<8> Balanced::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const {
+    if (refs.empty()) return {};
+    if (are_whole(mesh, refs)) return build_balanced(mesh, refs, task);
+    return Collapse<8>{}.apply(mesh, refs, BinnedSah{}.build(mesh, refs, task), task);
+}
+
+WideBvh<8> Best::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const {
+    SpatialSplits splits;
+    splits.budget = budget;
+    const Bvh2 bvh = Optimize{}.apply(mesh, refs, splits.build(mesh, refs, task), task);
+    if (task.stopped()) return {};
+    return Collapse<8>{}.apply(mesh, refs, bvh, task);
+}
+
+}  // namespace boxwood

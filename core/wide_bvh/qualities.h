@@ -1,0 +1,38 @@
+#pragma once
+
+#include "core/structure/method.h"
+#include "core/wide_bvh/wide_bvh.h"
+
+namespace boxwood {
+
+/// The eight-wide hierarchy that is built fastest: the hierarchy of the Morton codes (see Morton) down to
+/// single packs, part by part, nodes of least expected cost (see Collapse) within the parts and above them; a
+/// part is at least one node. Packs stand depth first. Over pieces of triangles the two stages are run as
+/// they are.
+struct Preview {
+    void describe(ParamVisitor&) {}
+    WideBvh<8> build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const;
+};
+
+/// Traced fast, built in a moment: binned surface area cost (see BinnedSah) within parts that are neighbours
+/// on the Morton curve, a sweep over the parts above them, nodes of least expected cost (see Collapse); a
+/// part is at least one node. After Ganestam, Barringer, Doggett, Akenine-Moeller, "Bonsai: Rapid Bounding
+/// Volume Hierarchy Generation using Mini Trees", JCGT 4(3), 2015. Differs: no pruning of parts. Packs stand
+/// depth first. Over pieces of triangles the two stages are run as they are.
+struct Balanced {
+    void describe(ParamVisitor&) {}
+    WideBvh<8> build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const;
+};
+
+/// The eight-wide hierarchy that is traced fastest: spatial splits, subtrees moved to where they cost less,
+/// nodes of least expected cost. See SpatialSplits, Optimize and Collapse.
+struct Best {
+    float budget = 2.0f;  ///< references at most, for each one given, 1 to 16
+
+    void describe(ParamVisitor& v) {
+        v.on_float("budget", budget, 1.0f, 16.0f, "references in leaves at most, for each one given");
+    }
+    WideBvh<8> build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const;
+};
+
+}  // namespace boxwood
