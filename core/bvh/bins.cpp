@@ -114,13 +114,13 @@ BinSplit Bins::sweep(int bin_count, uint32_t count, float scale) const {
 }
 
 BinSplit Bins::cheapest_split(int bin_count, uint32_t count, float area_scale, int log_block) const {
-    BOXWOOD_ASSERT(log_block == 0 || log_block == 2);
+    BOXWOOD_ASSERT(log_block == 0 || log_block == 3);
     if (log_block == 0) {
         return area_scale == 1.0f ? sweep<false, 0>(bin_count, count, area_scale)
                                   : sweep<true, 0>(bin_count, count, area_scale);
     }
-    return area_scale == 1.0f ? sweep<false, 2>(bin_count, count, area_scale)
-                              : sweep<true, 2>(bin_count, count, area_scale);
+    return area_scale == 1.0f ? sweep<false, 3>(bin_count, count, area_scale)
+                              : sweep<true, 3>(bin_count, count, area_scale);
 }
 
 Box4 Bins::box_of(int axis, int begin, int end) const {

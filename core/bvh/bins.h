@@ -49,7 +49,7 @@ struct Bins {
     void add(const Bins& other, int bin_count);
     /// Cheapest plane between two bins; the more even one of equally cheap ones; then the first axis, the
     /// first plane. Lengths are multiplied by area_scale, a power of two. References count by blocks of
-    /// 1 << log_block, 0 or 2, the last of a side as a whole one.
+    /// 1 << log_block, 0 or 3, the last of a side as a whole one.
     BinSplit cheapest_split(int bin_count, uint32_t count, float area_scale, int log_block = 0) const;
     /// Box of the bins [begin, end) of an axis.
     Box4 box_of(int axis, int begin, int end) const;

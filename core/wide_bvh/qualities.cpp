@@ -1,5 +1,6 @@
 #include "core/wide_bvh/qualities.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "core/base/assert.h"
@@ -59,11 +60,15 @@ WideBvh<8> build_preview(const Mesh& mesh, std::span<const PrimRef> refs, const 
             parts[i].emplace(order, nodes[i].range, nodes[i].depth,
                              std::span(shapes).subspan(size_t{2} * nodes[i].range.begin));
     });
-    std::vector<uint32_t> first_packs;
+    // Depth first, which is the order of the curve; the parts themselves stand level by level.
+    std::vector<size_t> along(parts.size());
+    for (size_t i = 0; i < along.size(); ++i) along[i] = i;
+    std::ranges::sort(along, {}, [&](size_t i) { return nodes[i].range.begin; });
+    std::vector<uint32_t> first_packs(parts.size());
     uint32_t pack_count = 0;
-    for (const std::optional<MortonPart>& part : parts) {
-        first_packs.push_back(pack_count);
-        pack_count += part->pack_count();
+    for (const size_t i : along) {
+        first_packs[i] = pack_count;
+        pack_count += parts[i]->pack_count();
     }
     Array<Pack8> packs(pack_count);
     const PackFiller filler(mesh);

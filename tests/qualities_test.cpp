@@ -1,0 +1,45 @@
+#include "core/wide_bvh/qualities.h"
+
+#include <gtest/gtest.h>
+
+#include "core/scene/scene.h"
+#include "support/random_mesh.h"
+
+namespace boxwood {
+namespace {
+
+/// Large enough for many parts, some nearer to the root than others.
+std::shared_ptr<const Scene> scene_of_parts() {
+    Task task;
+    return open_scene("spaceship", task);
+}
+
+/// Each triangle in some leaf, each leaf's triangles inside its box.
+void expect_whole(const Mesh& mesh, const WideBvh<8>& bvh) {
+    std::vector<bool> is_there(mesh.triangle_count(), false);
+    for (const WideBvh<8>::Node& node : bvh.nodes) {
+        for (uint32_t lane = 0; lane < 8; ++lane) {
+            const WideChild child = node.children[lane];
+            if (!child.is_leaf()) continue;
+            for (uint32_t i = 0; i < child.pack_count(); ++i) {
+                const WideBvh<8>::Pack& pack = bvh.packs[child.first_pack() + i];
+                for (uint32_t k = 0; k < pack.count(); ++k) {
+                    ASSERT_TRUE(node.bounds(lane).contains(mesh.triangle(pack.prims[k]).bounds()));
+                    is_there[pack.prims[k]] = true;
+                }
+            }
+        }
+    }
+    EXPECT_EQ(std::ranges::count(is_there, true), static_cast<std::ptrdiff_t>(mesh.triangle_count()));
+}
+
+TEST(Qualities, LeavesOfManyPartsHoldTheirTriangles) {
+    const auto scene = scene_of_parts();
+    const std::vector<PrimRef> refs = whole_refs(scene->mesh);
+    Task task;
+    expect_whole(scene->mesh, Preview{}.build(scene->mesh, refs, task));
+    expect_whole(scene->mesh, Balanced{}.build(scene->mesh, refs, task));
+}
+
+}  // namespace
+}  // namespace boxwood
