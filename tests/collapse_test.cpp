@@ -133,7 +133,8 @@ private:
         const size_t count = prims_below(bvh_, node).size();
         if (!bvh_.nodes[node].is_leaf() && count > static_cast<size_t>(method_.leaf_size))
             return std::numeric_limits<double>::infinity();
-        return probability(node) * static_cast<double>((count + 3) / 4) * costs_of(method_).pack;
+        return probability(node) * WideBvh<Width>::Pack::packs_for(static_cast<uint32_t>(count)) *
+               costs_of(method_).pack;
     }
     double probability(uint32_t node) const {
         const auto area = [&](uint32_t n) {
@@ -174,7 +175,7 @@ void expect_least_of_all(uint32_t most_leaves, uint64_t seed) {
         const uint32_t prim_count = i % 2 == 0 ? 12 : 1000;  // many in several leaves, or few
         const Bvh2 bvh = hand_made_bvh(random_tree(rng, leaf_count, prim_count));
         Collapse<Width> method;
-        method.leaf_size = static_cast<int>(1 + rng.next_index(12));
+        method.leaf_size = static_cast<int>(1 + rng.next_index(24));
         method.node_cost = rng.next(0.0f, 2.0f);
         method.pack_cost = rng.next(0.0f, 2.0f);
         const double cost = wide_cost(collapse<Width>(mesh, bvh, method), costs_of(method));
