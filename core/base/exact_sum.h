@@ -77,4 +77,21 @@ private:
     int size_ = 0;
 };
 
+/// -1, 0 or 1: the sign of ab + cd without error.
+inline int sign_of_products(const ExactDifference& a, const ExactDifference& b, const ExactDifference& c,
+                            const ExactDifference& d) {
+    if (a.low == 0.0 && b.low == 0.0 && c.low == 0.0 && d.low == 0.0) {
+        // ab + cd = p + q + e + f: the products and what they lost in rounding.
+        const double p = a.high * b.high, q = c.high * d.high;
+        const double e = std::fma(a.high, b.high, -p), f = std::fma(c.high, d.high, -q);
+        const double sum = p + q;  // off by 2^-53 |sum| at most, and without error where it is 0
+        if (sum == 0.0) return e + f > 0.0 ? 1 : e + f < 0.0 ? -1 : 0;
+        if (std::abs(sum) > 2.0 * (std::abs(e) + std::abs(f))) return sum > 0.0 ? 1 : -1;
+    }
+    ExactSum sum;
+    sum.add_product(a, b);
+    sum.add_product(c, d);
+    return sum.sign();
+}
+
 }  // namespace boxwood

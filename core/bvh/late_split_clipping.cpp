@@ -97,8 +97,8 @@ private:
         const Bvh2::Node& node = tree.nodes[cell];
         const LateSplitPlane plane = late_split_plane({node.lower, node.upper});
         const size_t first = parts_.size();
-        const Side lower = add_side(parent, plane, /*is_upper=*/false);
-        const Side upper = add_side(parent, plane, /*is_upper=*/true);
+        const Sides sides = add_sides(parent, plane);
+        const Side &lower = sides.lower, &upper = sides.upper;
         const size_t added = size_t{lower.count} + upper.count - parent.count;
         // One side is empty only where a leaf's box is larger than what it holds.
         const bool is_cut = added <= left && lower.count > 0 && upper.count > 0;
@@ -118,33 +118,42 @@ private:
         uint32_t count = 0;
         Box box;
     };
-    /// Appends the parts of the parent's parts on one closed side of the plane.
-    Side add_side(const Cell& parent, const LateSplitPlane& plane, bool is_upper) {
-        Side side;
-        const int axis = plane.axis;
-        for (size_t p = parent.first; p < parent.first + parent.count; ++p) {
-            Part part = parts_[p];
-            const bool is_all =
-                is_upper ? part.box.lower[axis] >= plane.position : part.box.upper[axis] <= plane.position;
-            if (!is_all) {
-                const bool is_none =
-                    is_upper ? part.box.upper[axis] < plane.position : part.box.lower[axis] > plane.position;
-                if (is_none) continue;
-                (is_upper ? part.box.lower : part.box.upper)[axis] = plane.position;
-                part.box = clip_bounds(mesh_.triangle(part.prim), part.box);
-                if (part.box.is_empty()) continue;
-            }
-            side.box.extend(part.box);
+    struct Sides {
+        Side lower, upper;
+    };
+    /// Appends the parts of the parent's parts on the closed lower side of the plane, then those on the
+    /// upper.
+    Sides add_sides(const Cell& parent, const LateSplitPlane& plane) {
+        Sides sides;
+        upper_parts_.clear();
+        const auto add = [](const Box& box, uint32_t prim, Side& side, std::vector<Part>& parts) {
+            if (box.is_empty()) return;
+            side.box.extend(box);
             ++side.count;
-            parts_.push_back(part);
+            parts.push_back({box, prim});
+        };
+        for (size_t p = parent.first; p < parent.first + parent.count; ++p) {
+            const auto [box, prim] = parts_[p];
+            const float lower = box.lower[plane.axis], upper = box.upper[plane.axis];
+            ClippedHalves halves;
+            if (upper < plane.position)
+                halves.lower = box;
+            else if (lower > plane.position)
+                halves.upper = box;
+            else
+                halves = clip_halves(mesh_.triangle(prim), box, plane.axis, plane.position);
+            add(halves.lower, prim, sides.lower, parts_);
+            add(halves.upper, prim, sides.upper, upper_parts_);
         }
-        return side;
+        parts_.insert(parts_.end(), upper_parts_.begin(), upper_parts_.end());
+        return sides;
     }
 
     const Mesh& mesh_;
     const Bvh2& bvh_;
     double max_area_;
     std::vector<Part> parts_;
+    std::vector<Part> upper_parts_;  ///< of the cut under way
     std::vector<Cell> cells_;
     std::vector<Waiting> heap_;
 };

@@ -31,11 +31,11 @@ float next_up(float x) {
 }
 float next_down(float x) { return -next_up(-x); }
 
-/// Bracket of a number known as an approximation `x` with |x - exact| <= error, and exactly by
-/// `difference(f)`: an ExactSum that is a positive `scale` (known to a relative error of 1e-8) times (exact -
-/// f).
-template <class Difference>
-Bracket bracket(double x, double error, double scale, const Difference& difference) {
+/// Bracket of a number known as an approximation `x` with |x - exact| <= error, and exactly by an `offset`:
+/// offset.from(f) is an ExactSum that is a positive `scale` (known to a relative error of 1e-8) times
+/// (exact - f), offset.sign(f) its sign.
+template <class Offset>
+Bracket bracket(double x, double error, double scale, const Offset& offset) {
     // x is at most half a step away from its nearest float, so the number lies on the same side of it as x,
     // and before the next float, where that side is certain.
     float nearest = static_cast<float>(x);
@@ -44,8 +44,8 @@ Bracket bracket(double x, double error, double scale, const Difference& differen
     if (-distance > error) return {next_down(nearest), nearest};
     // Close to zero the interval may hold many floats: there the exact sum gives x with a small relative
     // error.
-    if (!(error < 1e-9 * std::abs(x))) nearest = static_cast<float>(difference(0.0f).value() / scale);
-    const int sign = difference(nearest).sign();
+    if (!(error < 1e-9 * std::abs(x))) nearest = static_cast<float>(offset.from(0.0f).value() / scale);
+    const int sign = offset.sign(nearest);
     if (sign == 0) return {nearest, nearest};
     if (sign > 0) return {nearest, next_up(nearest)};
     return {next_down(nearest), nearest};
@@ -57,17 +57,22 @@ Point point(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 class Clipper {
 public:
-    Clipper(const Triangle& triangle, const Box& bounds, const Box& box, double bound_scale)
+    /// `reached`: bounds that the result is known to have; empty in an axis, or infinite, where none is
+    /// known.
+    Clipper(const Triangle& triangle, const Box& bounds, const Box& box, const Box& reached,
+            double bound_scale)
         : corners_{point(triangle.a), point(triangle.b), point(triangle.c)},
           least_(point(bounds.lower)),
           most_(point(bounds.upper)),
           lower_(point(box.lower)),
           upper_(point(box.upper)),
-          bound_scale_(bound_scale) {}
+          bound_scale_(bound_scale),
+          result_lower_(point(reached.lower)),
+          result_upper_(point(reached.upper)) {}
 
     Box bounds() {
         for (const Point& corner : corners_) add_corner(corner);
-        for (size_t i = 0; i < 3; ++i) add_edge(corners_[i], corners_[(i + 1) % 3]);
+        for (size_t i = 0; i < 3 && !is_complete(); ++i) add_edge(corners_[i], corners_[(i + 1) % 3]);
         for (size_t axis = 0; axis < 3 && !is_complete(); ++axis) add_box_edges(axis);
         return {{result_lower_[0], result_lower_[1], result_lower_[2]},
                 {result_upper_[0], result_upper_[1], result_upper_[2]}};
@@ -83,13 +88,15 @@ private:
         result_upper_[axis] = std::max(result_upper_[axis], x.ceil);
     }
 
-    /// Whether no further point can make the result larger.
-    bool is_complete() const {
-        for (size_t axis = 0; axis < 3; ++axis)
-            if (result_lower_[axis] > std::max(lower_[axis], least_[axis]) ||
-                result_upper_[axis] < std::min(upper_[axis], most_[axis]))
-                return false;
-        return true;
+    /// Whether no further point can make the result larger, along an axis or at all.
+    bool is_complete(size_t axis) const {
+        return result_lower_[axis] <= std::max(lower_[axis], least_[axis]) &&
+               result_upper_[axis] >= std::min(upper_[axis], most_[axis]);
+    }
+    bool is_complete() const { return is_complete(0) && is_complete(1) && is_complete(2); }
+    /// Whether a point with this coordinate makes the result no larger along the axis.
+    bool is_reached(size_t axis, float x) const {
+        return result_lower_[axis] <= x && x <= result_upper_[axis];
     }
 
     void add_corner(const Point& corner) {
@@ -106,9 +113,11 @@ private:
             if (std::max(a[axis], b[axis]) < lower_[axis] || std::min(a[axis], b[axis]) > upper_[axis])
                 return;
         for (size_t axis = 0; axis < 3; ++axis)
-            for (const float plane : {lower_[axis], upper_[axis]})
-                if (std::min(a[axis], b[axis]) < plane && plane < std::max(a[axis], b[axis]))
-                    add_edge_point(a, b, axis, plane);
+            for (const float plane : {lower_[axis], upper_[axis]}) {
+                if (!(std::min(a[axis], b[axis]) < plane && plane < std::max(a[axis], b[axis]))) continue;
+                const bool are_others_complete = is_complete((axis + 1) % 3) && is_complete((axis + 2) % 3);
+                if (!are_others_complete || !is_reached(axis, plane)) add_edge_point(a, b, axis, plane);
+            }
     }
 
     /// The point of edge ab with the given coordinate, strictly between those of a and b.
@@ -140,23 +149,38 @@ private:
         constexpr double kUnit = 0x1p-53 * (1.0 + 0x1p-40);
         const double largest = std::max(std::abs(double(at_a)), std::abs(double(at_b)));
         const double error = bound_scale_ * kUnit * (2.0 * largest + 3.0 * std::abs(x));
-        return bracket(x, error, scale, [&](float f) {
-            ExactSum sum;
-            sum.add_product(ascends ? ExactDifference(b[axis], plane) : ExactDifference(plane, b[axis]),
-                            ExactDifference(at_a, f));
-            sum.add_product(ascends ? ExactDifference(plane, a[axis]) : ExactDifference(a[axis], plane),
-                            ExactDifference(at_b, f));
-            return sum;
-        });
+        return bracket(x, error, scale,
+                       EdgeOffset{ascends ? ExactDifference(b[axis], plane) : ExactDifference(plane, b[axis]),
+                                  ascends ? ExactDifference(plane, a[axis]) : ExactDifference(a[axis], plane),
+                                  at_a, at_b});
     }
+
+    /// weight_a (at_a - f) + weight_b (at_b - f); see bracket.
+    struct EdgeOffset {
+        ExactDifference weight_a, weight_b;
+        float at_a, at_b;
+
+        ExactSum from(float f) const {
+            ExactSum sum;
+            sum.add_product(weight_a, ExactDifference(at_a, f));
+            sum.add_product(weight_b, ExactDifference(at_b, f));
+            return sum;
+        }
+        int sign(float f) const {
+            return sign_of_products(weight_a, ExactDifference(at_a, f), weight_b, ExactDifference(at_b, f));
+        }
+    };
 
     /// Points of the triangle's inside on the four edges of the box along `axis`.
     void add_box_edges(size_t axis) {
         const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
         for (const float at_u : {lower_[u], upper_[u]}) {
             if (!(least_[u] < at_u && at_u < most_[u])) continue;
-            for (const float at_v : {lower_[v], upper_[v]})
-                if (least_[v] < at_v && at_v < most_[v]) add_box_edge_point(axis, u, at_u, v, at_v);
+            for (const float at_v : {lower_[v], upper_[v]}) {
+                if (!(least_[v] < at_v && at_v < most_[v])) continue;
+                const bool adds_nothing = is_complete(axis) && is_reached(u, at_u) && is_reached(v, at_v);
+                if (!adds_nothing) add_box_edge_point(axis, u, at_u, v, at_v);
+            }
         }
     }
 
@@ -168,6 +192,27 @@ private:
         sum.add_product(ExactDifference(at_v, a[v]), ExactDifference(b[u], at_u));
         return sum;
     }
+
+    /// The sum of |area_i| (x_i - f); see bracket.
+    struct LineOffset {
+        const Clipper& clipper;
+        size_t axis, u;
+        float at_u;
+        size_t v;
+        float at_v;
+        bool areas_are_positive;
+
+        ExactSum from(float f) const {
+            ExactSum sum;
+            for (size_t i = 0; i < 3; ++i) {
+                const float x = clipper.corners_[i][axis];
+                sum.add_product(clipper.exact_area(i, u, at_u, v, at_v),
+                                areas_are_positive ? ExactDifference(x, f) : ExactDifference(f, x));
+            }
+            return sum;
+        }
+        int sign(float f) const { return from(f).sign(); }
+    };
 
     /// The line (U, V) along `axis` meets the triangle where the three areas that the point (U, V) makes with
     /// the triangle's edges, seen along the axis, have one sign; they are the weights of its corners. A line
@@ -202,28 +247,19 @@ private:
             largest = std::max(largest, std::abs(x));
         }
         const double error = bound_scale_ * (2.1 * total_error / std::abs(total) + 1e-15) * largest;
-        const Bracket x = bracket(numerator / total, error, std::abs(total), [&](float f) {
-            ExactSum sum;
-            for (size_t i = 0; i < 3; ++i)
-                sum.add_product(exact_area(i, u, at_u, v, at_v), sign > 0
-                                                                     ? ExactDifference(corners_[i][axis], f)
-                                                                     : ExactDifference(f, corners_[i][axis]));
-            return sum;
-        });
+        const LineOffset offset{*this, axis, u, at_u, v, at_v, sign > 0};
+        const Bracket x = bracket(numerator / total, error, std::abs(total), offset);
         if (!is_inside(axis, x)) return;
         add(axis, x);
         add(u, {at_u, at_u});
         add(v, {at_v, at_v});
     }
 
-    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
     std::array<Point, 3> corners_;
     Point least_, most_;   // the triangle's bounds
     Point lower_, upper_;  // the box
     double bound_scale_;
-    Point result_lower_{kInfinity, kInfinity, kInfinity};
-    Point result_upper_{-kInfinity, -kInfinity, -kInfinity};
+    Point result_lower_, result_upper_;
 };
 
 }  // namespace
@@ -233,7 +269,28 @@ Box clip_bounds(const Triangle& triangle, const Box& box, double bound_scale) {
     if (box.contains(whole)) return whole;
     if (glm::any(glm::greaterThan(whole.lower, box.upper)) || glm::any(glm::lessThan(whole.upper, box.lower)))
         return {};
-    return Clipper(triangle, whole, box, bound_scale).bounds();
+    return Clipper(triangle, whole, box, Box(), bound_scale).bounds();
+}
+
+ClippedHalves clip_halves(const Triangle& triangle, const Box& part, int axis, float position) {
+    Box lower = part, upper = part;
+    lower.upper[axis] = upper.lower[axis] = position;
+    // Only a part with points strictly on both sides reaches the plane for certain.
+    if (!(part.lower[axis] < position && position < part.upper[axis]))
+        return {clip_bounds(triangle, lower), clip_bounds(triangle, upper)};
+    const Box whole = triangle.bounds();
+    Box reached;
+    reached.lower[axis] = part.lower[axis];
+    reached.upper[axis] = position;
+    const Box first = Clipper(triangle, whole, lower, reached, 1.0).bounds();
+    // What the lower half does not reach of the part's box is reached by the upper one.
+    reached = Box();
+    for (int a = 0; a < 3; ++a) {
+        if (first.lower[a] > part.lower[a]) reached.lower[a] = part.lower[a];
+        if (first.upper[a] < part.upper[a]) reached.upper[a] = part.upper[a];
+    }
+    reached.lower[axis] = position;
+    return {first, Clipper(triangle, whole, upper, reached, 1.0).bounds()};
 }
 
 }  // namespace boxwood

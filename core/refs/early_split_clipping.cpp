@@ -35,11 +35,7 @@ void cut(const Triangle& triangle, double max_area, const EmitBox& emit) {
             if (!emit(piece.box)) return;
             continue;
         }
-        Box left = piece.box, right = piece.box;
-        left.upper[axis] = middle;
-        right.lower[axis] = middle;
-        left = clip_bounds(triangle, left);
-        right = clip_bounds(triangle, right);
+        const auto [left, right] = clip_halves(triangle, piece.box, axis, middle);
         BOXWOOD_ASSERT(size + 2 <= stack.size());
         if (!right.is_empty()) stack[size++] = {right, piece.depth + 1};
         if (!left.is_empty()) stack[size++] = {left, piece.depth + 1};
