@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "core/base/error.h"
-#include "core/base/timer.h"
 #include "core/scene/load_file.h"
 #include "core/scene/scene.h"
+#include "support/processor_time.h"
 
 namespace boxwood {
 namespace {

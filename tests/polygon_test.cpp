@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/base/timer.h"
 #include "core/scene/mesh_check.h"
+#include "support/processor_time.h"
 
 namespace boxwood {
 namespace {
