@@ -244,7 +244,7 @@ TEST(LateSplitClipping, EndsAtTheEndsOfFloat) {
     }
 }
 
-TEST(LateSplitClipping, TakesAtMostAsLongAsItsBaseOnRealScenes) {
+TEST(LateSplitClipping, TakesAboutAsLongAsItsBaseAtMostOnRealScenes) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__OPTIMIZE__)
     GTEST_SKIP() << "times of a build for debugging mean nothing";
 #endif
@@ -259,13 +259,12 @@ TEST(LateSplitClipping, TakesAtMostAsLongAsItsBaseOnRealScenes) {
         ASSERT_EQ(method.budget, 2);
         const Bvh2 base = BinnedSah{}.build(mesh, refs, task);
         size_t references = 0;
-        // The limit leaves room for the kernel's time for fresh pages, which comes and goes with other
-        // processes: the truss, where most is cut, takes 0.8 to 1.1 times its base, the other scenes a
-        // quarter at most.
+        // The truss, where most is cut, takes 0.8 to 1.08 times its base (measured: the promise of 1 is only
+        // just kept or missed there), the other scenes a quarter at most.
         EXPECT_LE(median_time_ratio(
                       9, [&] { references = method.apply(mesh, refs, base, task).prims.size(); },
                       [&] { BinnedSah{}.build(mesh, refs, task); }),
-                  std::string(name) == "trusses.glb" ? 1.5 : 0.5)
+                  std::string(name) == "trusses.glb" ? 1.25 : 0.5)
             << name;
         EXPECT_LE(references, 2 * base.prims.size());
     }
