@@ -56,8 +56,9 @@ struct WideChild {
 /// Bounding volume hierarchy whose nodes have up to `Width` children, their boxes as a structure of arrays.
 /// Dammertz, Hanika, Keller, "Shallow Bounding Volume Hierarchies for Fast SIMD Ray Tracing of Incoherent
 /// Rays", EGSR 2008 (QBVH); eight children as in Wald, Benthin, Boulos, "Getting Rid of Packets", RT 2008.
-/// Nodes in depth-first order, the root first; an empty mesh has no node. Packs in the order of the leaves,
-/// these in the order of the nodes and, in a node, of the children.
+/// Nodes in depth-first order, the root first; an empty mesh has no node. Leaves in the order of the nodes
+/// and, in a node, of the children; the packs of one stand together, those of a collapse in the order of the
+/// leaves, those of Preview and Balanced depth first.
 template <uint32_t Width>
 struct WideBvh {
     static_assert(Width == 4 || Width == 8);
