@@ -93,6 +93,37 @@ TEST(BuildJob, OfSeveralRequestsTheNewestIsAnswered) {
     EXPECT_FALSE(job.take());
 }
 
+TEST(BuildJob, AStandInIsThereBeforeTheStructure) {
+    BuildJob job(std::make_shared<StageCache>());
+    const auto next = [&] {
+        std::optional<BuildResult> result = job.take();
+        while (!result) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            result = job.take();
+        }
+        return *result;
+    };
+    BuildRequest wanted = request("evh(t=6) > best", "spaceship");
+    wanted.stand_in = true;
+    job.request(wanted);
+    const BuildResult first = next();
+    EXPECT_TRUE(first.is_stand_in);
+    EXPECT_EQ(print(first.sides[0].built->recipe), "evh(t=6) > preview");
+    EXPECT_TRUE(job.progress().running);
+    const BuildResult last = next();
+    EXPECT_FALSE(last.is_stand_in);
+    EXPECT_EQ(print(last.sides[0].built->recipe), "evh(t=6) > best");
+    EXPECT_EQ(last.sides[0].built->references, first.sides[0].built->references);
+
+    // What is known already needs none; nor does a request that wants none.
+    job.request(request("preview"));
+    job.wait();
+    job.request(wanted);
+    EXPECT_FALSE(next().is_stand_in);
+    job.request(request("best", "terrain@tris=20k"));
+    EXPECT_FALSE(next().is_stand_in);
+}
+
 TEST(BuildJob, CancelEndsTheWorkWithoutAResult) {
     BuildJob job(std::make_shared<StageCache>());
     job.request(request("bvh-sweep-sah", "terrain@tris=300k"));

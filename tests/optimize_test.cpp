@@ -111,7 +111,7 @@ TEST(LinkedTree, GainIsWhatTheSumOfAreasFallsBy) {
 }
 
 TEST(Optimize, PutsThingsBackTogether) {
-    const Bvh2 best = optimized(misplaced(), {.rounds = 16, .share = 1.0f});
+    const Bvh2 best = optimized(misplaced(), {.rounds = 16, .share = 1.0f, .least_gain = 0.0f});
     EXPECT_EQ(check_nodes(best.list_nodes(), 5), "");
     // ((0, 1), ((10, 11), 20)): 43 + 5 + 23 + 5 for inner nodes, 3 for each of five leaves, of 43.
     EXPECT_DOUBLE_EQ(sah_cost(best), (43.0 + 5.0 + 23.0 + 5.0 + 15.0) / 43.0);
@@ -194,7 +194,7 @@ Bvh2 chain(uint32_t levels) {
 TEST(Optimize, StaysWithinTheDepthOfATree) {
     const Bvh2 deep = chain(Bvh2::kMaxDepth);
     ASSERT_EQ(make_level_table(deep.list_nodes()).level_count(), 65u);
-    const Bvh2 best = optimized(deep, {.rounds = 16, .share = 1.0f});
+    const Bvh2 best = optimized(deep, {.rounds = 16, .share = 1.0f, .least_gain = 0.0f});
     const LevelTable table = make_level_table(best.list_nodes());
     EXPECT_LE(table.level_count(), 65u);
     EXPECT_EQ(check_nodes(table.list, 65), "");

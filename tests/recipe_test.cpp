@@ -189,5 +189,19 @@ TEST(Catalog, EveryParameterIsDescribedForPeople) {
     }
 }
 
+TEST(Recipe, AStandInMakesTheSameFamilyAndHasNoneItself) {
+    size_t count = 0;
+    for (const CatalogEntry& entry : builder_catalog()) {
+        const Recipe recipe = parse_recipe("evh(t=9) > " + std::string(entry.id));
+        const std::optional<Recipe> other = stand_in(recipe);
+        if (!other) continue;
+        ++count;
+        EXPECT_EQ(other->references, recipe.references);
+        EXPECT_STREQ(other->builder.entry().output, entry.output) << entry.id;
+        EXPECT_FALSE(stand_in(*other)) << entry.id;
+    }
+    EXPECT_GT(count, 0u);
+}
+
 }  // namespace
 }  // namespace boxwood

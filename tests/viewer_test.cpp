@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "app/command/commands.h"
 #include "app/gl/read_pixels.h"
@@ -58,6 +60,59 @@ TEST(ViewerFrame, ADragOfTheSliderOfTRebuildsAndDrawsAnotherPicture) {
     viewer.apply({UndoStep{}});
     EXPECT_EQ(viewer.state.side().recipe, small_session().state.side().recipe) << "the drag is one step";
     EXPECT_EQ(headless.messages().first_error, "");
+}
+
+TEST(Viewer, TheBetterTreeReplacesItsStandInAndAllElseStays) {
+    Session session;
+    session.state.scene = "spaceship";
+    session.state.side().recipe = "evh(t=6) > best";
+    session.state.levels = {.first = 2, .last = 3};
+    session.state.camera = Camera{};
+    Viewer viewer(session);
+    const auto shown = [&] { return viewer.built() ? print(viewer.built()->recipe) : std::string(); };
+    const auto update_until = [&](const std::string& recipe) {
+        for (viewer.update(true); shown() != recipe; viewer.update(true)) {
+            EXPECT_TRUE(viewer.busy());
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    };
+    update_until("evh(t=6) > preview");
+    const NodeList& before = viewer.built()->levels->list;
+    const uint32_t node = 5;
+    const Box picked = before.nodes[node].bounds;
+    viewer.state.side().node = node;
+    viewer.state.prim = 7;
+    ViewerState expected = viewer.state;
+    update_until("evh(t=6) > best");
+    const uint32_t found = viewer.state.side().node;
+    ASSERT_NE(found, kNoIndex);
+    EXPECT_TRUE(viewer.built()->levels->list.nodes[found].bounds.contains(picked));
+    expected.side().node = found;
+    EXPECT_EQ(viewer.state, expected);
+
+    // From one position of the slider to the next there is always a structure to be drawn.
+    viewer.state.side().recipe = "evh(t=12) > best";
+    viewer.update(true);
+    EXPECT_EQ(shown(), "evh(t=6) > best");
+    update_until("evh(t=12) > preview");
+    update_until("evh(t=12) > best");
+    viewer.wait();
+    EXPECT_EQ(viewer.state.levels, session.state.levels);
+    EXPECT_EQ(viewer.state.camera, session.state.camera);
+}
+
+TEST(Viewer, NodesOfASessionAreNotThoseOfAStandIn) {
+    Session session;
+    session.state.scene = "spaceship";
+    session.state.side().recipe = "best";
+    session.state.side().node = 9;
+    Viewer viewer(session);
+    while (!viewer.built()) {
+        viewer.update(false);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(print(viewer.built()->recipe), "best");
+    EXPECT_EQ(viewer.state.side().node, 9u);
 }
 
 TEST(ViewerFrame, TheLookDependsOnTheSessionAlone) {

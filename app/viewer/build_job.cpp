@@ -19,6 +19,15 @@ uint64_t count_shared(std::span<const PrimRef> refs, const BoxValues& values) {
     return count;
 }
 
+SideResult finished(Built built) {
+    SideResult result;
+    result.values = std::make_shared<BoxValues>(make_box_values(built.levels->list));
+    result.shared_count = count_shared(built.references->refs, *result.values);
+    result.tree = std::make_shared<TreeStats>(tree_stats(*built.levels));
+    result.built = std::make_shared<Built>(std::move(built));
+    return result;
+}
+
 }  // namespace
 
 BuildJob::BuildJob(std::shared_ptr<StageCache> cache) : cache_(std::move(cache)) {
@@ -125,31 +134,53 @@ BuildResult BuildJob::run(const BuildRequest& request, Task& task) {
         return std::ranges::find(request.recipes, entry.first) == request.recipes.end();
     });
     for (size_t side = 0; side < result.sides.size() && !task.stopped(); ++side) {
-        if (side == 0 || !request.recipes[side].empty())
-            result.sides[side] = build(request.recipes[side], task);
+        if (side != 0 && request.recipes[side].empty()) continue;
+        ShowMeanwhile show;
+        if (request.stand_in) {
+            show = [&](const SideResult& stand_in) {
+                BuildResult meanwhile = result;
+                meanwhile.sides[side] = stand_in;
+                meanwhile.is_stand_in = true;
+                show_meanwhile(std::move(meanwhile), task);
+            };
+        }
+        result.sides[side] = build(request.recipes[side], task, show);
     }
     return result;
 }
 
-SideResult BuildJob::build(const std::string& recipe, Task& task) {
+void BuildJob::show_meanwhile(BuildResult result, const Task& task) {
+    const std::scoped_lock lock(mutex_);
+    if (task.stopped()) return;
+    result.ms = since_.milliseconds();
+    finished_ = std::move(result);
+}
+
+SideResult BuildJob::build(const std::string& recipe, Task& task, const ShowMeanwhile& show) {
     if (const auto found = kept_.find(recipe); found != kept_.end()) return found->second;
-    SideResult result = make(recipe, task);
+    SideResult result = make(recipe, task, show);
     if (result.built) kept_[recipe] = result;
     return result;
 }
 
-SideResult BuildJob::make(const std::string& text, Task& task) {
+SideResult BuildJob::make(const std::string& text, Task& task, const ShowMeanwhile& show) {
     SideResult result;
     try {
         const Recipe recipe = parse_recipe(text);
         const std::string warning = long_build_warning(recipe, scene_->mesh.triangle_count());
-        say("building " + print(recipe) + (warning.empty() ? "" : ", which " + warning));
+        const std::string sentence =
+            "building " + print(recipe) + (warning.empty() ? "" : ", which " + warning);
+        say(sentence);
+        const std::optional<Recipe> other = show ? stand_in(recipe) : std::nullopt;
+        if (other && !find_recipe(recipe, scene_, *cache_, /*with_levels=*/true)) {
+            std::optional<Built> built = run_recipe(*other, scene_, *cache_, task, /*with_levels=*/true);
+            if (!built) return result;
+            show(finished(std::move(*built)));
+            say(sentence + "; until then " + print(*other) + " is shown");
+        }
         std::optional<Built> built = run_recipe(recipe, scene_, *cache_, task, /*with_levels=*/true);
         if (!built) return result;
-        result.values = std::make_shared<BoxValues>(make_box_values(built->levels->list));
-        result.shared_count = count_shared(built->references->refs, *result.values);
-        result.tree = std::make_shared<TreeStats>(tree_stats(*built->levels));
-        result.built = std::make_shared<Built>(std::move(*built));
+        result = finished(std::move(*built));
     } catch (const Error& error) {
         result.error = error.what();
         result.exit_code = error.exit_code();

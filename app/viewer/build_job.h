@@ -2,6 +2,7 @@
 
 #include <array>
 #include <condition_variable>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -23,8 +24,13 @@ struct BuildRequest {
     std::array<std::string, 2> recipes{};  ///< by Side; B's empty: there is none
     bool structure = true;  ///< false: nothing shows references or structure, so only the scene is opened
     bool reload = false;    ///< open the scene again even if it is the one that is open
+    bool stand_in = false;  ///< answer with a builder's stand-in first
 
-    bool operator==(const BuildRequest&) const = default;
+    /// Whether the same is wanted in the end.
+    bool operator==(const BuildRequest& other) const {
+        return scene == other.scene && recipes == other.recipes && structure == other.structure &&
+               reload == other.reload;
+    }
 };
 
 /// What a recipe made.
@@ -42,6 +48,7 @@ struct BuildResult {
     BuildRequest request;
     std::shared_ptr<const Scene> scene;  ///< null: it could not be opened, see error
     std::array<SideResult, 2> sides;     ///< by Side; the same recipe twice: the same structure
+    bool is_stand_in = false;            ///< a side shows a stand-in; the whole answer follows
     std::string error;                   ///< of the scene
     ExitCode exit_code = ExitCode::Done;
     double ms = 0.0;  ///< from the request to here
@@ -67,7 +74,7 @@ public:
     void request(BuildRequest request);
     /// Stops what runs and drops what waits; there is no result.
     void cancel();
-    /// The answer to the newest request, once.
+    /// The answer to the newest request, once; before it, where one was wanted, that with a stand-in.
     std::optional<BuildResult> take();
     BuildProgress progress() const;
     /// Returns when nothing runs or waits.
@@ -76,11 +83,14 @@ public:
     const StageCache& cache() const { return *cache_; }
 
 private:
+    using ShowMeanwhile = std::function<void(const SideResult&)>;
+
     void work(const std::stop_token& quit);
     BuildResult run(const BuildRequest& request, Task& task);
     void open(const BuildRequest& request, Task& task);
-    SideResult build(const std::string& recipe, Task& task);
-    SideResult make(const std::string& text, Task& task);
+    SideResult build(const std::string& recipe, Task& task, const ShowMeanwhile& show);
+    SideResult make(const std::string& text, Task& task, const ShowMeanwhile& show);
+    void show_meanwhile(BuildResult result, const Task& task);
     void say(const std::string& sentence);
 
     std::shared_ptr<StageCache> cache_;

@@ -204,4 +204,20 @@ uint32_t next_candidate(const std::vector<uint32_t>& candidates, uint32_t select
     return *(at + 1);
 }
 
+void find_nodes_again(SideState& state, const NodeList& from, const NodeList& to) {
+    const auto again = [&](uint32_t node) {
+        uint32_t found = kNoIndex;
+        if (node >= from.nodes.size()) return found;
+        for (uint32_t i = 0; i < to.nodes.size(); ++i) {
+            if (!to.nodes[i].bounds.contains(from.nodes[node].bounds)) continue;
+            if (found == kNoIndex || to.half_area(i) <= to.half_area(found)) found = i;
+        }
+        return found;
+    };
+    state.node = again(state.node);
+    state.isolated = again(state.isolated);
+    for (uint32_t& node : state.hidden_nodes) node = again(node);
+    std::erase(state.hidden_nodes, kNoIndex);
+}
+
 }  // namespace boxwood

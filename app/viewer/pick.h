@@ -23,6 +23,10 @@ struct PickPoint {
 std::vector<uint32_t> pick_nodes(const ViewerState& state, const LevelTable& levels,
                                  const Visibility& visibility, const Visits* visits, const PickPoint& point);
 
+/// Puts in place of the nodes that the state names, which are those of one structure, nodes of another one
+/// over the same scene: the smallest that contain their boxes, of equally small ones the lowest.
+void find_nodes_again(SideState& state, const NodeList& from, const NodeList& to);
+
 inline constexpr size_t kMostPicked = 256;
 
 /// The candidate after `selected`; the first one if that is none of them, kNoIndex if there is none.

@@ -79,6 +79,7 @@ struct SideState {
     uint32_t isolated = kNoIndex;          ///< node: only it and what is below it is shown
 
     bool operator==(const SideState&) const = default;
+    bool has_nodes() const { return node != kNoIndex || isolated != kNoIndex || !hidden_nodes.empty(); }
 };
 
 /// The truth of a session: plain data, of which everything that a frame shows is derived. A default value is

@@ -74,7 +74,11 @@ void Viewer::say(const std::string& sentence, bool is_error) {
 }
 
 BuildRequest Viewer::wanted() const {
-    BuildRequest request = request_of(opening_ ? opening_->session.state : state);
+    const ViewerState& next = opening_ ? opening_->session.state : state;
+    BuildRequest request = request_of(next);
+    // The nodes that a state names are those of its recipe: in a stand-in their numbers mean nothing.
+    request.stand_in =
+        std::ranges::none_of(next.sides, [](const SideState& side) { return side.has_nodes(); });
     if (!scene_) request.structure = false;  // the surface can be seen before its structure is built
     return request;
 }
@@ -169,9 +173,16 @@ void Viewer::take(const BuildResult& result) {
     }
     shown_ = result.request;
     shown_->reload = false;
-    shown_->structure = result.sides[0].built != nullptr &&
+    shown_->structure = !result.is_stand_in && result.sides[0].built != nullptr &&
                         (result.request.recipes[1].empty() || result.sides[1].built != nullptr);
-    for (size_t side = 0; side < works_.size(); ++side) works_[side]->take(result.sides[side]);
+    for (const Side side : kSides) {
+        SideWork& work = *works_[index_of(side)];
+        const std::shared_ptr<const Built> before = work.built();
+        work.take(result.sides[index_of(side)]);
+        if (shows_stand_in_ && before && work.built() != before)
+            find_nodes_again(state.sides[index_of(side)], before->levels->list, work.built()->levels->list);
+    }
+    shows_stand_in_ = result.is_stand_in;
     if (shown_->structure) build_wait_ms_ = result.ms;
 }
 

@@ -134,6 +134,7 @@ private:
     BuildJob job_{std::make_shared<StageCache>()};
     std::optional<BuildRequest> asked_;  ///< of the job, last
     std::optional<BuildRequest> shown_;  ///< what is on screen
+    bool shows_stand_in_ = false;        ///< on some side, until the whole answer is there
     std::optional<Opening> opening_;
     bool cancelled_ = false;
     std::string build_error_;

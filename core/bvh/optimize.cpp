@@ -62,6 +62,8 @@ std::vector<LinkedTree::Move> find_moves(const LinkedTree& tree, const std::vect
 void Optimize::describe(ParamVisitor& v) {
     v.on_int("rounds", rounds, 1, 64, "times that nodes are taken out and put back, at most");
     v.on_float("share", share, 0.001f, 1.0f, "of the nodes that a round tries, the most promising ones");
+    v.on_float("least-gain", least_gain, 0.0f, 1.0f,
+               "a round that gains less of the inner nodes' area is the last");
 }
 
 Bvh2 Optimize::apply(const Mesh&, std::span<const PrimRef>, const Bvh2& input, Task& task) const {
@@ -69,7 +71,7 @@ Bvh2 Optimize::apply(const Mesh&, std::span<const PrimRef>, const Bvh2& input, T
     const auto node_count = static_cast<uint32_t>(input.nodes.size());
     const double before = inner_area(input);
     // Far below what is worth a move, far above what sums of areas round by.
-    const double least_gain = before * 1e-12;
+    const double rounding = before * 1e-12;
     uint64_t move_count = 0, in_best_place = 0, overtaken = 0;
     task.total = static_cast<uint64_t>(double(share) * node_count) * static_cast<uint64_t>(rounds);
     for (int round = 0; round < rounds; ++round) {
@@ -78,16 +80,18 @@ Bvh2 Optimize::apply(const Mesh&, std::span<const PrimRef>, const Bvh2& input, T
         if (task.stopped()) return {};
         in_best_place += nodes.size() - moves.size();
         uint64_t made = 0;
+        double gained = 0.0;
         for (const LinkedTree::Move& move : moves) {
             const std::optional<double> gain = tree.gain(move.node, move.to);
-            if (gain && *gain > least_gain) {
+            if (gain && *gain > rounding) {
                 tree.move(move.node, move.to);
+                gained += *gain;
                 ++made;
             }
         }
         overtaken += moves.size() - made;
         move_count += made;
-        if (made == 0) break;
+        if (gained <= static_cast<double>(least_gain) * before) break;
     }
     task.skipped.add("in the best place", in_best_place);
     task.skipped.add("overtaken by other moves", overtaken);

@@ -25,8 +25,9 @@ namespace boxwood {
 struct Optimize {
     using Input = Bvh2;
     using Output = Bvh2;
-    int rounds = 4;      ///< 1 to 64; ends before that when a round finds nothing
-    float share = 0.1f;  ///< of the nodes that a round tries, the most promising ones, 0.001 to 1
+    int rounds = 4;            ///< 1 to 64
+    float share = 0.1f;        ///< of the nodes that a round tries, the most promising ones, 0.001 to 1
+    float least_gain = 0.01f;  ///< a round that gains no more of the inner nodes' area is the last, 0 to 1
 
     void describe(ParamVisitor& v);
     /// `refs` are not used: the leaves' boxes are those of the input.

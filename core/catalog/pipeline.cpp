@@ -68,8 +68,8 @@ uint64_t hash_of(std::span<const PrimRef> refs) {
 /// The result under `key`, run if the cache does not have it. Null if the task was stopped.
 std::shared_ptr<const StageResult> run_stage(const std::string& key, StageCache& cache, Task& task,
                                              const std::function<void(StageResult&)>& run) {
-    if (task.stopped()) return nullptr;
     if (std::shared_ptr<const StageResult> known = cache.find(key)) return known;
+    if (task.stopped()) return nullptr;
     task.done = 0;
     task.total = 0;
     const Counts before = task.skipped.counts();
@@ -254,6 +254,14 @@ std::optional<Built> run_recipe(const Recipe& recipe, std::shared_ptr<const Scen
     }
     return Built{std::move(scene),  recipe,   made->references, structure,
                  std::move(levels), made->ms, last->ms,         std::move(skipped)};
+}
+
+std::optional<Built> find_recipe(const Recipe& recipe, std::shared_ptr<const Scene> scene, StageCache& cache,
+                                 bool with_levels) {
+    std::stop_source stop;
+    stop.request_stop();
+    Task task(stop.get_token());  // finds, and runs nothing
+    return run_recipe(recipe, std::move(scene), cache, task, with_levels);
 }
 
 std::string long_build_warning(const Recipe& recipe, size_t triangle_count) {

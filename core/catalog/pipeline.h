@@ -73,6 +73,10 @@ struct Built {
 std::optional<Built> run_recipe(const Recipe& recipe, std::shared_ptr<const Scene> scene, StageCache& cache,
                                 Task& task, bool with_levels = false);
 
+/// What run_recipe would give, if the cache holds all of it; otherwise nothing.
+std::optional<Built> find_recipe(const Recipe& recipe, std::shared_ptr<const Scene> scene, StageCache& cache,
+                                 bool with_levels = false);
+
 /// "takes about 50 s for 871306 triangles" where a stage of the recipe says that it takes more than a few
 /// seconds (see EstimatesTime); otherwise empty.
 std::string long_build_warning(const Recipe& recipe, size_t triangle_count);

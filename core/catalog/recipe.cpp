@@ -140,6 +140,14 @@ Recipe parse_recipe(const std::string& text) { return parse_recipe(text, catalog
 
 std::string print(const Recipe& recipe) { return prefix(recipe, 2 + recipe.transforms.size()); }
 
+std::optional<Recipe> stand_in(const Recipe& recipe) {
+    const char* id = recipe.builder.method().stand_in();
+    if (id == nullptr) return std::nullopt;
+    Recipe result = recipe;
+    result.builder = Stage(*find_entry(id));
+    return result;
+}
+
 std::string prefix(const Recipe& recipe, size_t stage_count) {
     std::string text = recipe.references.text();
     if (stage_count == 1) return text;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,10 @@ Recipe parse_recipe(const std::string& text, const Catalog& catalog);
 
 /// Canonical: parse_recipe(print(r)) == r.
 std::string print(const Recipe& recipe);
+
+/// The recipe whose structure may be shown until that of this one is there (see HasStandIn): another builder,
+/// with its defaults. Nothing where the builder has no stand-in.
+std::optional<Recipe> stand_in(const Recipe& recipe);
 
 /// The canonical text of the first `stage_count` stages (1: references), for the cache.
 std::string prefix(const Recipe& recipe, size_t stage_count);

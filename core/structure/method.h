@@ -53,6 +53,13 @@ concept EstimatesTime = requires(const T& c, size_t triangle_count) {
     { c.estimate_seconds(triangle_count) } -> std::same_as<double>;
 };
 
+/// A builder that takes its time: the structure of the builder with the id `kStandIn`, of the same family,
+/// may be shown until its own is there.
+template <class T>
+concept HasStandIn = Builder<T> && requires {
+    { T::kStandIn } -> std::convertible_to<const char*>;
+};
+
 /// One stage of a recipe with its parameters, of any kind. Of the three functions that run it exactly one
 /// applies: the catalog's table says which.
 class StageMethod {
@@ -68,6 +75,8 @@ public:
     virtual std::optional<int> input_frame() const = 0;
     /// See EstimatesTime; 0: not worth a word.
     virtual double estimate_seconds(size_t triangle_count) const = 0;
+    /// See HasStandIn; null: none.
+    virtual const char* stand_in() const = 0;
 };
 
 /// Gives a plain struct of parameters the interface above.
@@ -97,6 +106,10 @@ public:
     double estimate_seconds([[maybe_unused]] size_t triangle_count) const override {
         if constexpr (EstimatesTime<T>) return method_.estimate_seconds(triangle_count);
         return 0.0;
+    }
+    const char* stand_in() const override {
+        if constexpr (HasStandIn<T>) return T::kStandIn;
+        return nullptr;
     }
     std::optional<int> input_frame() const override {
         if constexpr (TakesInputOfFrame<T>) return method_.input_frame();

@@ -19,7 +19,10 @@ namespace boxwood {
 namespace {
 
 constexpr uint32_t kBinnedPartSize = 4096;  ///< triangles of a part of `balanced`, at most
-constexpr size_t kPartsAtOnce = 8;          ///< that a thread takes with the same memory
+/// From here on `best` splits space. Scans have 2.2 to 3.4, and spatial splits lower their cost by at most 2
+/// % (bench/RESULTS.md); architecture and machines have more, up to 18, and gain up to a sixth.
+constexpr double kLooseBoxes = 4.0;
+constexpr size_t kPartsAtOnce = 8;  ///< that a thread takes with the same memory
 
 PartCosts part_costs() {
     const Collapse<8> collapse;
@@ -112,6 +115,39 @@ WideBvh<8> build_balanced(const Mesh& mesh, std::span<const PrimRef> refs, const
     return std::move(joined.bvh);
 }
 
+/// Boxes of triangles that a random line meets in vain, as far as cuts can do something about it: the half
+/// areas of the boxes less those of the triangles' projections along the axes, which the boxes of ever
+/// smaller pieces tend to (Karras, Aila, "Fast Parallel Construction of High-Quality Bounding Volume
+/// Hierarchies", HPG 2013, section 4: A_aabb - A_ideal), divided by that of the scene's box. 0 where that has
+/// no area.
+double loose_boxes(const Mesh& mesh, std::span<const PrimRef> refs, const Task& task) {
+    constexpr size_t kGrain = 1 << 14;
+    struct Sum {
+        double excess = 0.0;
+        Box box;
+    };
+    std::vector<Sum> sums((refs.size() + kGrain - 1) / kGrain);
+    parallel_for(refs.size(), kGrain, [&](size_t begin, size_t end) {
+        if (task.stopped()) return;
+        Sum& sum = sums[begin / kGrain];
+        for (size_t i = begin; i < end; ++i) {
+            const Triangle triangle = mesh.triangle(refs[i].prim);
+            const DVec3 a(triangle.a), b(triangle.b), c(triangle.c);
+            const DVec3 projections = 0.5 * glm::abs(glm::cross(b - a, c - a));
+            const double tight = projections.x + projections.y + projections.z;
+            sum.excess += std::max(refs[i].bounds.half_area() - tight, 0.0);
+            sum.box.extend(refs[i].bounds);
+        }
+    });
+    Sum all;
+    for (const Sum& sum : sums) {
+        all.excess += sum.excess;
+        all.box.extend(sum.box);
+    }
+    const double area = all.box.half_area();
+    return area > 0.0 ? all.excess / area : 0.0;
+}
+
 }  // namespace
 
 WideBvh<8> Preview::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const {
@@ -127,9 +163,13 @@ WideBvh<8> Balanced::build(const Mesh& mesh, std::span<const PrimRef> refs, Task
 }
 
 WideBvh<8> Best::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const {
+    const bool is_cut = loose_boxes(mesh, refs, task) >= kLooseBoxes;
+    if (!is_cut) task.skipped.add("boxes are tight: not split in space", refs.size());
     SpatialSplits splits;
     splits.budget = budget;
-    const Bvh2 bvh = Optimize{}.apply(mesh, refs, splits.build(mesh, refs, task), task);
+    const Bvh2 parts = is_cut ? splits.build(mesh, refs, task) : BinnedSah{}.build(mesh, refs, task);
+    if (task.stopped()) return {};
+    const Bvh2 bvh = Optimize{}.apply(mesh, refs, parts, task);
     if (task.stopped()) return {};
     return Collapse<8>{}.apply(mesh, refs, bvh, task);
 }

@@ -24,9 +24,13 @@ struct Balanced {
     WideBvh<8> build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const;
 };
 
-/// The eight-wide hierarchy that is traced fastest: spatial splits, subtrees moved to where they cost less,
-/// nodes of least expected cost. See SpatialSplits, Optimize and Collapse.
+/// The eight-wide hierarchy that is traced fastest: spatial splits where cuts can take much from the boxes of
+/// triangles, else splits between centres in bins; subtrees moved to where they cost less; nodes of least
+/// expected cost. See SpatialSplits, BinnedSah, Optimize and Collapse. Counted in task.skipped: references
+/// that were not split in space since their "boxes are tight".
 struct Best {
+    static constexpr const char* kStandIn = "preview";
+
     float budget = 2.0f;  ///< references at most, for each one given, 1 to 16
 
     void describe(ParamVisitor& v) {
