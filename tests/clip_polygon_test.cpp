@@ -196,5 +196,51 @@ TEST(ClipBounds, TheErrorBoundHoldsAndHalfOfItDoesNot) {
     EXPECT_GT(boxes_too_small(0.5, 6000), 0);
 }
 
+/// A sliver along (y, z) = (1, 1), close to whose long side ab an edge of the box along x passes. There x is
+/// that of a and b but for a small share of c's, and the farthest of the part. The distances in y and z from
+/// the box's edge round, and so do their products, whose difference is 2^-17 of them.
+struct PastBoxEdge {
+    Triangle triangle;
+    Box box;
+};
+PastBoxEdge past_box_edge(const Vec3& a, const Vec3& b, const Vec3& c, float y, float z) {
+    return {{a, b, c}, {{-2, -2, z}, {2, y, 2}}};
+}
+PastBoxEdge past_box_edge(Rng& rng) {
+    const auto one = [&] { return 1.0f + 0.03f * rng.next(); };
+    const auto tiny = [&] {
+        const float value = rng.next() < 0.5f ? -one() : one();
+        return std::ldexp(value, -36 - static_cast<int>(rng.next_index(9)));
+    };
+    const float ay = one(), az = one(), bx = one(), scale = one(), offset = std::ldexp(one(), -17);
+    const Vec3 a(-one(), ay, az), b(-bx, -ay * scale, -az * scale + offset);
+    const float cx = one(), cy = std::ldexp(one(), -16), y = tiny(), z = tiny();
+    return past_box_edge(a, b, {cx, cy, -cy}, y, z);
+}
+
+/// The cases were found among 50000 slivers, by trying thousands of c.x where the areas round far.
+TEST(ClipBounds, TheErrorBoundAtTheBoxsEdgesHoldsAndHalfOfItDoesNot) {
+    Rng rng(9);
+    for (int i = 0; i < 2000; ++i) {
+        const PastBoxEdge test = past_box_edge(rng);
+        expect_smallest_box(test.triangle, test.box);
+    }
+    const PastBoxEdge found[] = {
+        past_box_edge({-0x1.07108cp+0f, 0x1.015034p+0f, 0x1.0636f4p+0f},
+                      {-0x1.07406ap+0f, -0x1.081f28p+0f, -0x1.0d2698p+0f},
+                      {0x1.07888ap+0f, 0x1.055aaap-16f, -0x1.055aaap-16f}, 0x1.001d16p-42f, -0x1.053dap-43f),
+        past_box_edge({-0x1.02695p+0f, 0x1.03d71ap+0f, 0x1.00fa9cp+0f},
+                      {-0x1.04e4e8p+0f, -0x1.086d22p+0f, -0x1.058332p+0f},
+                      {0x1.0718d6p+0f, 0x1.03c934p-16f, -0x1.03c934p-16f}, 0x1.01dd6p-42f, -0x1.044b22p-41f),
+        past_box_edge({-0x1.010ae4p+0f, 0x1.0402b6p+0f, 0x1.04c13cp+0f},
+                      {-0x1.079304p+0f, -0x1.081e46p+0f, -0x1.08df4cp+0f},
+                      {0x1.062764p+0f, 0x1.012e88p-16f, -0x1.012e88p-16f}, -0x1.040c6ep-39f, 0x1.00303p-41f)};
+    for (const PastBoxEdge& test : found) {
+        expect_smallest_box(test.triangle, test.box);
+        const float right = clip_bounds(test.triangle, test.box).upper.x;
+        EXPECT_LT(clip_bounds(test.triangle, test.box, 0.5).upper.x, right);
+    }
+}
+
 }  // namespace
 }  // namespace boxwood

@@ -163,6 +163,7 @@ HWY_AFTER_NAMESPACE();
 #include <functional>
 
 #include "oracle/oracle.h"
+#include "support/exact_entry.h"
 
 namespace boxwood {
 namespace {
@@ -210,20 +211,6 @@ std::vector<FloatAnswer> answers_of(const std::vector<FloatCase>& cases, Mode mo
     std::vector<FloatAnswer> answers(cases.size());
     HWY_DYNAMIC_DISPATCH(answer_cases)(cases, mode, variant, answers);
     return answers;
-}
-
-mpq_class exact(float value) { return mpq_class(double(value)); }
-
-/// t at which the ray, which meets the box, enters it.
-mpq_class entry_of(const Ray& ray, const Box& box) {
-    mpq_class entry = exact(ray.t_min);
-    for (int axis = 0; axis < 3; ++axis) {
-        if (ray.direction[axis] == 0.0f) continue;
-        const float plane = ray.direction[axis] > 0.0f ? box.lower[axis] : box.upper[axis];
-        const mpq_class t = (exact(plane) - exact(ray.origin[axis])) / exact(ray.direction[axis]);
-        if (t > entry) entry = t;
-    }
-    return entry;
 }
 
 using IsWrong = std::function<bool(const FloatCase&, const FloatAnswer&)>;

@@ -224,18 +224,20 @@ private:
             dv[i] = double(corners_[i][v]) - double(at_v);
         }
         // x = sum of area_i x_i / sum of area_i, M the largest |x_i|, e the sum of the area errors, W that of
-        // the areas: numerator and denominator are off by e M and e, and round by 3u M W and 2u W; the
-        // division by u.
+        // the areas: area errors move x by at most 2M e / W, no |x_i - x| being larger than 2M; numerator and
+        // denominator round by 3u M W and 2u W, the division by u M: 2M e / W + 6u M. What is of second order
+        // is below 1e-8 of it.
+        constexpr double kUnit = 0x1p-53 * (1.0 + 0x1p-20);
         double total = 0.0, total_error = 0.0, numerator = 0.0, largest = 0.0;
         int sign = 0;
         for (size_t i = 0; i < 3; ++i) {
-            // Each product carries three roundings, their difference one more: below 4u (|left| + |right|).
+            // Each product carries three roundings, their difference one more: 4u (|left| + |right|).
             const double left = du[(i + 1) % 3] * dv[(i + 2) % 3], right = dv[(i + 1) % 3] * du[(i + 2) % 3];
             double area = left - right;
-            double error = 5e-16 * (std::abs(left) + std::abs(right));
+            double error = 4.0 * kUnit * (std::abs(left) + std::abs(right));
             if (!(error < 1e-9 * std::abs(area))) {
                 area = exact_area(i, u, at_u, v, at_v).value();
-                error = 5e-16 * std::abs(area);
+                error = 4.0 * kUnit * std::abs(area);
             }
             const int side = area > 0.0 ? 1 : area < 0.0 ? -1 : 0;
             if (side == 0 || (sign != 0 && side != sign)) return;
@@ -246,7 +248,7 @@ private:
             numerator += area * x;
             largest = std::max(largest, std::abs(x));
         }
-        const double error = bound_scale_ * (2.1 * total_error / std::abs(total) + 1e-15) * largest;
+        const double error = bound_scale_ * (2.0 * total_error / std::abs(total) + 6.0 * kUnit) * largest;
         const LineOffset offset{*this, axis, u, at_u, v, at_v, sign > 0};
         const Bracket x = bracket(numerator / total, error, std::abs(total), offset);
         if (!is_inside(axis, x)) return;

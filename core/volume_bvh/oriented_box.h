@@ -86,8 +86,8 @@ private:
     /// At most the parameter at which a distance is covered.
     static double first_parameter(double distance, const BoundedDot& d) {
         const double speed = std::abs(d.value);
-        return distance >= 0.0 ? distance / (speed + d.error) * (1.0 - 5.0 * Bounds::kUnit)
-                               : distance / (speed - d.error) * (1.0 + 5.0 * Bounds::kUnit);
+        return distance >= 0.0 ? distance / (speed + d.error) * (1.0 - Bounds::kQuotientPad)
+                               : distance / (speed - d.error) * (1.0 + Bounds::kQuotientPad);
     }
 
     DVec3 origin_, direction_;

@@ -10,6 +10,7 @@ namespace boxwood {
 /// of it is wrong. u = 2^-53 and room for what is of second order.
 struct VolumeBounds {
     static constexpr double kUnit = 0x1p-53 * (1.0 + 0x1p-40);
+    static constexpr double kQuotientPad = 5.0 * kUnit;          ///< see OrientedBox::Test
     static constexpr double kDistancePad = 1.0 + 6.0 * 0x1p-53;  ///< see length_above
 };
 

@@ -106,7 +106,8 @@ struct RayLanes {
 };
 
 /// Rays of one origin and octant prepared for tests in float: each as FloatRay<Mode::Exact> is.
-struct PacketRays {
+template <class Bounds>
+struct BasicPacketRays {
     PacketFloats inverse[3], near_offset[3], far_offset[3], t_min, t_max;
     PacketFloats shear_x, shear_y;
     HWY_ALIGN float directions[3][kPacketSize];
@@ -121,7 +122,8 @@ struct PacketRays {
     uint32_t members;
 
     /// Of those rays whose bits are set in `wanted`, one at least.
-    HWY_INLINE PacketRays(const Ray* rays, const RayLanes& lanes, const FloatScene& scene, uint32_t wanted) {
+    HWY_INLINE BasicPacketRays(const Ray* rays, const RayLanes& lanes, const FloatScene& scene,
+                               uint32_t wanted) {
         const Ray& first = rays[std::countr_zero(wanted)];
         z = static_cast<uint32_t>(largest_component(first.direction));
         x = z == 2 ? 0 : z + 1;
@@ -131,7 +133,7 @@ struct PacketRays {
         set_origin(first, scene, 1);
         set_origin(first, scene, 2);
         const float reach =
-            std::max(std::max(reaches[0], reaches[1]), reaches[2]) * (1.0f + 4.0f * FloatBounds::kUnit);
+            std::max(std::max(reaches[0], reaches[1]), reaches[2]) * (1.0f + 4.0f * Bounds::kUnit);
         members = is_near_enough(scene, reach) ? wanted & fitting(first, lanes) : 0;
         if (HWY_UNLIKELY((members & (wanted & (0u - wanted))) == 0)) {
             members = 0;
@@ -151,10 +153,10 @@ struct PacketRays {
     }
     /// Comparisons with NaN are false.
     HWY_INLINE bool is_near_enough(const FloatScene& scene, float reach) const {
-        return reach >= FloatBounds::kSmallestReach && reach <= FloatBounds::kLargest &&
-               std::abs(origin[0]) + scene.largest[0] <= FloatBounds::kLargest &&
-               std::abs(origin[1]) + scene.largest[1] <= FloatBounds::kLargest &&
-               std::abs(origin[2]) + scene.largest[2] <= FloatBounds::kLargest;
+        return reach >= Bounds::kSmallestReach && reach <= Bounds::kLargest &&
+               std::abs(origin[0]) + scene.largest[0] <= Bounds::kLargest &&
+               std::abs(origin[1]) + scene.largest[1] <= Bounds::kLargest &&
+               std::abs(origin[2]) + scene.largest[2] <= Bounds::kLargest;
     }
     HWY_INLINE uint32_t fitting(const Ray& first, const RayLanes& lanes) const {
         const PacketTag d;
@@ -165,8 +167,8 @@ struct PacketRays {
             const auto is_valid =
                 hn::And(hn::And(hn::Ge(lanes.t_min[i], hn::Zero(d)), hn::Le(lanes.t_min[i], lanes.t_max[i])),
                         hn::Lt(lanes.t_min[i], hn::Set(d, std::numeric_limits<float>::infinity())));
-            const auto is_ordinary = hn::And(hn::Ge(largest, hn::Set(d, FloatBounds::kSmallestDirection)),
-                                             hn::Le(largest, hn::Set(d, FloatBounds::kLargest)));
+            const auto is_ordinary = hn::And(hn::Ge(largest, hn::Set(d, Bounds::kSmallestDirection)),
+                                             hn::Le(largest, hn::Set(d, Bounds::kLargest)));
             const auto is_along =
                 hn::And(is_like(first, lanes, 0, i, largest),
                         hn::And(is_like(first, lanes, 1, i, largest), is_like(first, lanes, 2, i, largest)));
@@ -216,17 +218,17 @@ struct PacketRays {
     HWY_INLINE void set_slabs(const FloatScene& scene, uint32_t axis, float reach) {
         const PacketTag d;
         const float rounded =
-            FloatBounds::kSlab * (2.0f * (reaches[axis] + std::abs(origin[axis])) + scene.largest[axis]);
-        const float moved_by = reach * FloatBounds::kMoved;
-        pads[axis] = rounded + moved_by + FloatBounds::kUnderflow;
+            Bounds::kSlab * (2.0f * (reaches[axis] + std::abs(origin[axis])) + scene.largest[axis]);
+        const float moved_by = reach * Bounds::kMoved;
+        pads[axis] = rounded + moved_by + Bounds::kUnderflow;
         for (uint32_t i = 0; i < kVectors; ++i) {
             const PacketVector along = direction(axis, i), size = hn::Abs(along);
-            const PacketVector least = hn::Mul(hn::Abs(direction(z, i)), hn::Set(d, FloatBounds::kUnit));
+            const PacketVector least = hn::Mul(hn::Abs(direction(z, i)), hn::Set(d, Bounds::kUnit));
             const auto is_moved = hn::Lt(size, least);
             const PacketVector r =
                 hn::Div(hn::Set(d, 1.0f), hn::IfThenElse(is_moved, hn::CopySign(least, along), along));
             const PacketVector moved =
-                hn::IfThenElse(is_moved, hn::Set(d, moved_by), hn::Set(d, FloatBounds::kUnderflow));
+                hn::IfThenElse(is_moved, hn::Set(d, moved_by), hn::Set(d, Bounds::kUnderflow));
             const PacketVector pad = hn::Mul(hn::Abs(r), hn::Add(hn::Set(d, rounded), moved));
             const PacketVector c = hn::Neg(hn::Mul(hn::Set(d, origin[axis]), r));
             inverse[axis][i] = r;
@@ -269,7 +271,17 @@ struct PacketRays {
     HWY_INLINE PacketVector far(uint32_t axis, uint32_t i, float plane) const {
         return hn::MulAdd(hn::Set(PacketTag(), plane), inverse[axis][i], far_offset[axis][i]);
     }
+
+    /// (d / d_z).n of the rays of vector i, for n of one lane, by axis x, y, z.
+    template <size_t Size>
+    HWY_INLINE PacketVector sheared_dot(const float (&n)[3][Size], uint32_t lane, uint32_t i) const {
+        const PacketTag d;
+        return hn::MulAdd(shear_x[i], hn::Set(d, n[0][lane]),
+                          hn::MulAdd(shear_y[i], hn::Set(d, n[1][lane]), hn::Set(d, n[2][lane])));
+    }
 };
+
+using PacketRays = BasicPacketRays<PacketBounds>;
 
 /// Triangles in double, one for each ray of a packet.
 struct PacketTriangles {
@@ -302,54 +314,61 @@ struct PacketTriangles {
             hn::Store(hn::Set(d, pack.corners[corner][2][lane]), d, corners[corner][2] + i);
         }
     }
-    /// Sets t of the rays and their triangles' planes, rounded once; those whose bits are set are right. As
-    /// interval_of_t does.
-    HWY_INLINE uint32_t round_t(const PacketRays& rays, float* t) const {
+    using D = hn::CappedTag<double, kPacketSize>;
+    using V = hn::Vec<D>;
+    static constexpr uint32_t kStep = hn::MaxLanes(D());
+
+    /// t of the rays from `first` on and their triangles' planes; the interval holds where `is_sure` does.
+    struct Interval {
+        V lower, upper;
+        hn::Mask<D> is_sure;
+    };
+    /// As interval_of_t does.
+    template <class Bounds>
+    HWY_INLINE Interval interval(const BasicPacketRays<Bounds>& rays, uint32_t first) const {
+        const D d;
+        const V x = corner(0, 0, first), y = corner(0, 1, first), z = corner(0, 2, first);
+        const V e1x = hn::Sub(corner(1, 0, first), x), e1y = hn::Sub(corner(1, 1, first), y),
+                e1z = hn::Sub(corner(1, 2, first), z), e2x = hn::Sub(corner(2, 0, first), x),
+                e2y = hn::Sub(corner(2, 1, first), y), e2z = hn::Sub(corner(2, 2, first), z);
+        const V nx1 = hn::Mul(e1y, e2z), nx2 = hn::Mul(e1z, e2y), ny1 = hn::Mul(e1z, e2x),
+                ny2 = hn::Mul(e1x, e2z), nz1 = hn::Mul(e1x, e2y), nz2 = hn::Mul(e1y, e2x);
+        const V nx = hn::Sub(nx1, nx2), ny = hn::Sub(ny1, ny2), nz = hn::Sub(nz1, nz2);
+        const V sum_x = hn::Add(hn::Abs(nx1), hn::Abs(nx2)), sum_y = hn::Add(hn::Abs(ny1), hn::Abs(ny2)),
+                sum_z = hn::Add(hn::Abs(nz1), hn::Abs(nz2));
+        const V ax = hn::Sub(x, hn::Set(d, double(rays.origin[0]))),
+                ay = hn::Sub(y, hn::Set(d, double(rays.origin[1]))),
+                az = hn::Sub(z, hn::Set(d, double(rays.origin[2])));
+        const V dx = in_double(rays.directions[0] + first), dy = in_double(rays.directions[1] + first),
+                dz = in_double(rays.directions[2] + first);
+        const V numerator = dot(ax, ay, az, nx, ny, nz), denominator = dot(dx, dy, dz, nx, ny, nz);
+        const V numerator_error = hn::Mul(hn::Set(d, 8.0 * Bounds::kDoubleTermUnit),
+                                          dot(hn::Abs(ax), hn::Abs(ay), hn::Abs(az), sum_x, sum_y, sum_z));
+        const V denominator_error = hn::Mul(hn::Set(d, 7.0 * Bounds::kDoubleTermUnit),
+                                            dot(hn::Abs(dx), hn::Abs(dy), hn::Abs(dz), sum_x, sum_y, sum_z));
+        const V inverse = hn::Div(hn::Set(d, 1.0), denominator);
+        const V quotient = hn::Mul(numerator, inverse), size = hn::Abs(quotient);
+        const V error = hn::MulAdd(hn::MulAdd(size, denominator_error, numerator_error),
+                                   hn::Mul(hn::Abs(inverse), hn::Set(d, 1.0 + 0x1p-38)),
+                                   hn::Mul(hn::Set(d, 3.0 * Bounds::kDoubleTermUnit), size));
+        return {hn::Sub(quotient, error), hn::Add(quotient, error),
+                hn::Lt(denominator_error, hn::Mul(hn::Set(d, 0x1p-40), hn::Abs(denominator)))};
+    }
+    /// Sets t of all rays, rounded once; those whose bits are set are right.
+    template <class Bounds>
+    HWY_INLINE uint32_t round_t(const BasicPacketRays<Bounds>& rays, float* t) const {
         uint32_t right = 0;
         for (uint32_t first = 0; first < kPacketSize; first += kStep) {
-            const D d;
             const hn::Rebind<float, D> df;
-            const V x = corner(0, 0, first), y = corner(0, 1, first), z = corner(0, 2, first);
-            const V e1x = hn::Sub(corner(1, 0, first), x), e1y = hn::Sub(corner(1, 1, first), y),
-                    e1z = hn::Sub(corner(1, 2, first), z), e2x = hn::Sub(corner(2, 0, first), x),
-                    e2y = hn::Sub(corner(2, 1, first), y), e2z = hn::Sub(corner(2, 2, first), z);
-            const V nx1 = hn::Mul(e1y, e2z), nx2 = hn::Mul(e1z, e2y), ny1 = hn::Mul(e1z, e2x),
-                    ny2 = hn::Mul(e1x, e2z), nz1 = hn::Mul(e1x, e2y), nz2 = hn::Mul(e1y, e2x);
-            const V nx = hn::Sub(nx1, nx2), ny = hn::Sub(ny1, ny2), nz = hn::Sub(nz1, nz2);
-            const V sum_x = hn::Add(hn::Abs(nx1), hn::Abs(nx2)), sum_y = hn::Add(hn::Abs(ny1), hn::Abs(ny2)),
-                    sum_z = hn::Add(hn::Abs(nz1), hn::Abs(nz2));
-            const V ax = hn::Sub(x, hn::Set(d, double(rays.origin[0]))),
-                    ay = hn::Sub(y, hn::Set(d, double(rays.origin[1]))),
-                    az = hn::Sub(z, hn::Set(d, double(rays.origin[2])));
-            const V dx = in_double(rays.directions[0] + first), dy = in_double(rays.directions[1] + first),
-                    dz = in_double(rays.directions[2] + first);
-            const V numerator = dot(ax, ay, az, nx, ny, nz), denominator = dot(dx, dy, dz, nx, ny, nz);
-            const V numerator_error =
-                hn::Mul(hn::Set(d, 8.0 * FilterBounds::kTermUnit),
-                        dot(hn::Abs(ax), hn::Abs(ay), hn::Abs(az), sum_x, sum_y, sum_z));
-            const V denominator_error =
-                hn::Mul(hn::Set(d, 7.0 * FilterBounds::kTermUnit),
-                        dot(hn::Abs(dx), hn::Abs(dy), hn::Abs(dz), sum_x, sum_y, sum_z));
-            const V inverse = hn::Div(hn::Set(d, 1.0), denominator);
-            const V quotient = hn::Mul(numerator, inverse), size = hn::Abs(quotient);
-            const V error = hn::MulAdd(hn::MulAdd(size, denominator_error, numerator_error),
-                                       hn::Mul(hn::Abs(inverse), hn::Set(d, 1.0 + 0x1p-38)),
-                                       hn::Mul(hn::Set(d, 3.0 * FilterBounds::kTermUnit), size));
-            const auto lower = hn::DemoteTo(df, hn::Sub(quotient, error)),
-                       upper = hn::DemoteTo(df, hn::Add(quotient, error));
+            const Interval t_here = interval(rays, first);
+            const auto lower = hn::DemoteTo(df, t_here.lower), upper = hn::DemoteTo(df, t_here.upper);
             hn::Store(upper, df, t + first);
-            const auto is_sure =
-                hn::Lt(denominator_error, hn::Mul(hn::Set(d, 0x1p-40), hn::Abs(denominator)));
-            right |= (mask_bits(df, hn::Eq(lower, upper)) & mask_bits(d, is_sure)) << first;
+            right |= (mask_bits(df, hn::Eq(lower, upper)) & mask_bits(D(), t_here.is_sure)) << first;
         }
         return right;
     }
 
 private:
-    using D = hn::CappedTag<double, kPacketSize>;
-    using V = hn::Vec<D>;
-    static constexpr uint32_t kStep = hn::MaxLanes(D());
-
     static HWY_INLINE V in_double(const float* from) {
         return hn::PromoteTo(D(), hn::Load(hn::Rebind<float, D>(), from));
     }
@@ -370,12 +389,14 @@ struct Frustum {
     V near_inverse[3], far_inverse[3], near_offset[3], far_offset[3];
     Planes<Width> at;
 
-    HWY_INLINE explicit Frustum(const PacketRays& rays) : at(rays.octant) {
+    template <class Bounds>
+    HWY_INLINE explicit Frustum(const BasicPacketRays<Bounds>& rays) : at(rays.octant) {
         set_axis(rays, 0);
         set_axis(rays, 1);
         set_axis(rays, 2);
     }
-    HWY_INLINE void set_axis(const PacketRays& rays, uint32_t axis) {
+    template <class Bounds>
+    HWY_INLINE void set_axis(const BasicPacketRays<Bounds>& rays, uint32_t axis) {
         const D d;
         const float least = rays.inverse[axis].least(), largest = rays.inverse[axis].largest();
         const bool is_negative = (rays.octant >> axis & 1) != 0;
@@ -410,7 +431,8 @@ struct PackVectors {
     V x, y, z;
 
     HWY_INLINE PackVectors(V in_x, V in_y, V in_z) : x(in_x), y(in_y), z(in_z) {}
-    HWY_INLINE PackVectors(const float corners[3][Size], uint32_t first, const PacketRays& rays)
+    template <class Bounds>
+    HWY_INLINE PackVectors(const float corners[3][Size], uint32_t first, const BasicPacketRays<Bounds>& rays)
         : x(hn::Load(D(), corners[rays.x] + first)),
           y(hn::Load(D(), corners[rays.y] + first)),
           z(hn::Load(D(), corners[rays.z] + first)) {}
@@ -436,29 +458,32 @@ struct PackEdges {
     HWY_ALIGN float bounds[kPart];       ///< of the edge functions of a triangle
     Vectors a, ab, bc;                   ///< corner a from the origin, edges
 
-    HWY_INLINE PackEdges(const TrianglePack<Size>& pack, uint32_t first, const PacketRays& rays)
+    template <class Bounds>
+    HWY_INLINE PackEdges(const TrianglePack<Size>& pack, uint32_t first, const BasicPacketRays<Bounds>& rays)
         : PackEdges({pack.corners[0], first, rays}, {pack.corners[1], first, rays},
                     {pack.corners[2], first, rays},
                     {hn::Set(D(), rays.origin[rays.x]), hn::Set(D(), rays.origin[rays.y]),
                      hn::Set(D(), rays.origin[rays.z])},
-                    rays.shear_sizes[0], rays.shear_sizes[1]) {}
+                    rays) {}
 
 private:
+    template <class Bounds>
     HWY_INLINE PackEdges(const Vectors& at_a, const Vectors& at_b, const Vectors& at_c, const Vectors& origin,
-                         float shear_x, float shear_y)
+                         const BasicPacketRays<Bounds>& rays)
         : a(at_a.minus(origin)), ab(at_b.minus(at_a)), bc(at_c.minus(at_b)) {
         const D d;
         const Vectors b = at_b.minus(origin), c = at_c.minus(origin), ca = at_a.minus(at_c);
         store_cross(a, ab, edges[0]);
         store_cross(b, bc, edges[1]);
         store_cross(c, ca, edges[2]);
+        const float shear_x = rays.shear_sizes[0], shear_y = rays.shear_sizes[1];
         const V of_x = hn::Set(d, 1.0f + shear_y), of_y = hn::Set(d, 1.0f + shear_x),
                 of_z = hn::Set(d, shear_x + shear_y);
         const V size =
             hn::Max(hn::Max(a.sum(of_x, of_y, of_z), b.sum(of_x, of_y, of_z)), c.sum(of_x, of_y, of_z));
         const V size_of_edges = hn::Max(hn::Max(ab.largest(), bc.largest()), ca.largest());
-        hn::Store(hn::MulAdd(hn::Mul(hn::Set(d, PacketBounds::kSharedEdge), size_of_edges), size,
-                             hn::Set(d, PacketBounds::kUnderflow)),
+        hn::Store(hn::MulAdd(hn::Mul(hn::Set(d, Bounds::kSharedEdge), size_of_edges), size,
+                             hn::Set(d, Bounds::kUnderflow)),
                   d, bounds);
     }
     static HWY_INLINE void store_cross(const Vectors& p, const Vectors& e, float n[3][kPart]) {
@@ -466,6 +491,27 @@ private:
         hn::Store(hn::MulSub(p.y, e.z, hn::Mul(p.z, e.y)), d, n[0]);
         hn::Store(hn::MulSub(p.z, e.x, hn::Mul(p.x, e.z)), d, n[1]);
         hn::Store(hn::MulSub(p.x, e.y, hn::Mul(p.y, e.x)), d, n[2]);
+    }
+};
+
+/// The least and the largest of a triangle's three edge functions, for the rays of vector i.
+struct EdgeFunctions {
+    PacketVector least, most;
+
+    template <uint32_t Size, class Bounds>
+    HWY_INLINE EdgeFunctions(const BasicPacketRays<Bounds>& rays, const PackEdges<Size>& of, uint32_t lane,
+                             uint32_t i) {
+        const PacketVector u = rays.sheared_dot(of.edges[0], lane, i),
+                           v = rays.sheared_dot(of.edges[1], lane, i),
+                           w = rays.sheared_dot(of.edges[2], lane, i);
+        least = hn::Min(u, hn::Min(v, w));
+        most = hn::Max(u, hn::Max(v, w));
+    }
+    HWY_INLINE hn::Mask<PacketTag> is_missed(PacketVector bound) const {
+        return hn::And(hn::Lt(least, hn::Neg(bound)), hn::Gt(most, bound));
+    }
+    HWY_INLINE hn::Mask<PacketTag> is_hit(PacketVector bound) const {
+        return hn::Or(hn::Gt(least, bound), hn::Lt(most, hn::Neg(bound)));
     }
 };
 
@@ -478,7 +524,8 @@ struct PackPlanes {
     HWY_ALIGN float normals[3][kPart];  ///< by axis x, y, z of the rays
     HWY_ALIGN float numerators[kPart], numerator_errors[kPart], denominator_errors[kPart];
 
-    HWY_INLINE PackPlanes(const PackEdges<Size>& of, const PacketRays& rays) {
+    template <class Bounds>
+    HWY_INLINE PackPlanes(const PackEdges<Size>& of, const BasicPacketRays<Bounds>& rays) {
         const D d;
         const V nx1 = hn::Mul(of.ab.y, of.bc.z), nx2 = hn::Mul(of.ab.z, of.bc.y),
                 ny1 = hn::Mul(of.ab.z, of.bc.x), ny2 = hn::Mul(of.ab.x, of.bc.z),
@@ -490,14 +537,38 @@ struct PackPlanes {
         hn::Store(ny, d, normals[1]);
         hn::Store(nz, d, normals[2]);
         hn::Store(hn::MulAdd(of.a.x, nx, hn::MulAdd(of.a.y, ny, hn::Mul(of.a.z, nz))), d, numerators);
-        const V underflow = hn::Set(d, PacketBounds::kUnderflow);
+        const V underflow = hn::Set(d, Bounds::kUnderflow);
         const V sum = hn::MulAdd(hn::Abs(of.a.x), sum_x,
                                  hn::MulAdd(hn::Abs(of.a.y), sum_y, hn::Mul(hn::Abs(of.a.z), sum_z)));
-        hn::Store(hn::MulAdd(hn::Set(d, PacketBounds::kNumerator), sum, underflow), d, numerator_errors);
+        hn::Store(hn::MulAdd(hn::Set(d, Bounds::kNumerator), sum, underflow), d, numerator_errors);
         const V sheared = hn::MulAdd(hn::Set(d, rays.shear_sizes[0]), sum_x,
                                      hn::MulAdd(hn::Set(d, rays.shear_sizes[1]), sum_y, sum_z));
-        hn::Store(hn::MulAdd(hn::Set(d, PacketBounds::kDenominator), sheared, underflow), d,
-                  denominator_errors);
+        hn::Store(hn::MulAdd(hn::Set(d, Bounds::kDenominator), sheared, underflow), d, denominator_errors);
+    }
+};
+
+/// t of a triangle's plane, for the rays of vector i; the interval holds where `is_sure` does.
+struct PlaneInterval {
+    PacketVector lower, upper;
+    hn::Mask<PacketTag> is_sure;
+
+    template <uint32_t Size, class Bounds>
+    HWY_INLINE PlaneInterval(const BasicPacketRays<Bounds>& rays, const PackPlanes<Size>& planes,
+                             uint32_t lane, uint32_t i) {
+        const PacketTag d;
+        const PacketVector denominator = rays.sheared_dot(planes.normals, lane, i);
+        const PacketVector denominator_error = hn::Set(d, planes.denominator_errors[lane]);
+        is_sure = hn::Gt(hn::Abs(denominator), hn::Mul(hn::Set(d, 16.0f), denominator_error));
+        const PacketVector inverse = hn::Div(hn::Set(d, 1.0f), denominator);
+        const PacketVector z = hn::Mul(hn::Set(d, planes.numerators[lane]), inverse);
+        const PacketVector size = hn::Mul(hn::Set(d, 16.0f / 15.0f * Bounds::kSecondOrder), hn::Abs(inverse));
+        const PacketVector z_error = hn::Mul(
+            size, hn::MulAdd(hn::Abs(z), denominator_error, hn::Set(d, planes.numerator_errors[lane])));
+        const PacketVector inverse_z = rays.inverse[rays.z][i];
+        const PacketVector t = hn::Mul(z, inverse_z);
+        const PacketVector error = hn::MulAdd(z_error, hn::Abs(inverse_z), hn::Set(d, Bounds::kUnderflow));
+        lower = hn::Sub(t, error);
+        upper = hn::Add(t, error);
     }
 };
 

@@ -67,19 +67,15 @@ struct PacketSearch {
         uint32_t open[kPart], hit[kPart], any = 0;
         for (uint32_t lane = 0; lane < kPart; ++lane) {
             open[lane] = hit[lane] = 0;
-            const PacketVector bound = hn::Set(d, edges.bounds[lane]), minus_bound = hn::Neg(bound);
+            const PacketVector bound = hn::Set(d, edges.bounds[lane]);
             for (uint32_t i = 0; i < kVectors; ++i) {
-                const PacketVector u = function(ray, edges.edges[0], lane, i),
-                                   v = function(ray, edges.edges[1], lane, i),
-                                   w = function(ray, edges.edges[2], lane, i);
-                const PacketVector least = hn::Min(u, hn::Min(v, w)), most = hn::Max(u, hn::Max(v, w));
-                const auto missed = hn::And(hn::Lt(least, minus_bound), hn::Gt(most, bound));
+                const EdgeFunctions functions(ray, edges, lane, i);
+                const auto missed = functions.is_missed(bound);
                 const uint32_t missed_bits = packet_bits(missed);
                 const uint32_t all = (1u << kLanes) - 1;
                 if (HWY_LIKELY(missed_bits == all)) continue;
                 open[lane] |= (all & ~missed_bits) << (kLanes * i);
-                hit[lane] |= packet_bits(hn::Or(hn::Gt(least, bound), hn::Lt(most, minus_bound)))
-                             << (kLanes * i);
+                hit[lane] |= packet_bits(functions.is_hit(bound)) << (kLanes * i);
                 any |= 1;
             }
         }
@@ -88,12 +84,6 @@ struct PacketSearch {
         for (uint32_t lane = 0; lane < kPart; ++lane)
             if (open[lane] != 0) keep(ray, pack, planes, first, lane, open[lane], hit[lane]);
         limit = limits.largest();
-    }
-    static HWY_INLINE PacketVector function(const PacketRays& ray, const float n[3][kPart], uint32_t lane,
-                                            uint32_t i) {
-        const PacketTag d;
-        return hn::MulAdd(ray.shear_x[i], hn::Set(d, n[0][lane]),
-                          hn::MulAdd(ray.shear_y[i], hn::Set(d, n[1][lane]), hn::Set(d, n[2][lane])));
     }
     HWY_INLINE void keep(const PacketRays& ray, const Pack& pack, const PackPlanes<Width>& planes,
                          uint32_t first, uint32_t lane, uint32_t open, uint32_t hit) {
@@ -105,21 +95,9 @@ struct PacketSearch {
             const uint32_t all = (1u << kLanes) - 1;
             const uint32_t open_here = open >> (kLanes * i) & all, hit_here = hit >> (kLanes * i) & all;
             if (open_here == 0) continue;
-            const PacketVector denominator = function(ray, planes.normals, lane, i);
-            const PacketVector denominator_error = hn::Set(d, planes.denominator_errors[lane]);
-            const auto is_sure =
-                hn::And(packet_mask(hit_here),
-                        hn::Gt(hn::Abs(denominator), hn::Mul(hn::Set(d, 16.0f), denominator_error)));
-            const PacketVector inverse = hn::Div(hn::Set(d, 1.0f), denominator);
-            const PacketVector z = hn::Mul(hn::Set(d, planes.numerators[lane]), inverse);
-            const PacketVector size =
-                hn::Mul(hn::Set(d, 16.0f / 15.0f * FloatBounds::kSecondOrder), hn::Abs(inverse));
-            const PacketVector z_error = hn::Mul(
-                size, hn::MulAdd(hn::Abs(z), denominator_error, hn::Set(d, planes.numerator_errors[lane])));
-            const PacketVector t = hn::Mul(z, ray.inverse[ray.z][i]);
-            const PacketVector error =
-                hn::MulAdd(z_error, hn::Abs(ray.inverse[ray.z][i]), hn::Set(d, PacketBounds::kUnderflow));
-            const PacketVector lower = hn::Sub(t, error), upper = hn::Add(t, error);
+            const PlaneInterval t(ray, planes, lane, i);
+            const PacketVector lower = t.lower, upper = t.upper;
+            const auto is_sure = hn::And(packet_mask(hit_here), t.is_sure);
             const auto is_in_range = hn::And(hn::Ge(lower, ray.t_min[i]), hn::Le(upper, ray.t_max[i]));
             const auto is_nearer = hn::And(is_sure, hn::And(is_in_range, hn::Lt(upper, lowers[i])));
             const auto old_prims = hn::Load(du, prims + kLanes * i);
