@@ -19,10 +19,9 @@ namespace boxwood {
 ///
 /// t. As in interval_of_t of filter.h, with D' = D / d_z = s_x n_x + s_y n_y + n_z, n the triangle's normal,
 /// whose factors are two edges, and with the last sum: 8u. N carries 8u as there. |t d_z - N / D'| <= (eN +
-/// |t d_z| eD) /
-/// (|D'| - eD), at most 16/15 of that over |D'| where |D'| > 16 eD. The inverse, its product with N, 1/d_z,
-/// the product with that and the ends are rounded: 5u |t|, at most 5u / |D'| times the monomials of N, and 5u
-/// eD / |D'| |t d_z|: of second order. 13u instead of 8u.
+/// |t d_z| eD) / (|D'| - eD), at most 16/15 of that over |D'| where |D'| > 16 eD. The inverse, its product
+/// with N, 1/d_z, the product with that and the ends are rounded: 5u |t|, at most 5u / |D'| times the
+/// monomials of N, and 5u eD / |D'| |t d_z|: of second order. 13u instead of 8u.
 ///
 /// Rounded t, in double, u = 2^-53, in kDoubleTermUnit. As interval_of_t, but N is multiplied with 1 / D,
 /// both rounded: 3u |t| with the ends instead of 2u, and eD < 2^-40 |D| is asked for, so that |D| - eD is |D|
