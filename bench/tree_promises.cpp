@@ -7,12 +7,12 @@
 
 #include "core/base/error.h"
 #include "core/structure/sah.h"
+#include "core/wide_bvh/collapse.h"
 
 namespace boxwood::bench {
 namespace {
 
-constexpr std::array<const char*, 5> kValueNames{"sah_cost", "pack_cost", "references", "nodes", "bytes"};
-constexpr uint32_t kPackSize = 4;  ///< primitives that are tested together
+constexpr std::array<const char*, 5> kValueNames{"sah_cost", "wide_cost", "references", "nodes", "bytes"};
 
 /// One line for each; see parse_promise. The budget of references is that of the stage.
 constexpr const char* kPromises[] = {
@@ -21,8 +21,8 @@ constexpr const char* kPromises[] = {
     "sah_cost: bvh-spatial-splits <= bvh-sweep-sah",
     "sah_cost: bvh-sweep-sah > optimize <= bvh-sweep-sah",
     "sah_cost: bvh-spatial-splits > optimize <= bvh-spatial-splits",
-    "pack_cost: bvh-sweep-sah > wide4 <= bvh-sweep-sah > wide4(collapse=greedy)",
-    "pack_cost: bvh-sweep-sah > wide8 <= bvh-sweep-sah > wide8(collapse=greedy)",
+    "wide_cost: bvh-sweep-sah > wide4 <= bvh-sweep-sah > wide4(collapse=greedy)",
+    "wide_cost: bvh-sweep-sah > wide8 <= bvh-sweep-sah > wide8(collapse=greedy)",
 };
 
 std::string trimmed(const std::string& text) {
@@ -53,25 +53,35 @@ double take_factor(std::string& text) {
     return factor;
 }
 
-/// The SAH cost where a leaf costs as many tests as it has packs of so many primitives.
-double cost_by_packs(const NodeList& list, uint32_t pack_size) {
+double sah_cost(const NodeList& list) {
     double cost = 0.0;
     for (size_t i = 0; i < list.nodes.size(); ++i) {
         const NodeView& node = list.nodes[i];
-        const uint32_t packs = (node.ref_count + pack_size - 1) / pack_size;
         cost += hit_probability(list.half_area(i), list.half_area(0)) *
-                (node.kind == NodeKind::Inner ? double(kTraversalCost) : leaf_cost(packs));
+                (node.kind == NodeKind::Inner ? double(kTraversalCost) : leaf_cost(node.ref_count));
     }
     return cost;
+}
+
+template <uint32_t Width>
+double cost_of_wide(const WideBvh<Width>& bvh) {
+    const Collapse<Width> method;
+    return wide_cost(bvh, {static_cast<double>(method.node_cost), static_cast<double>(method.pack_cost)});
+}
+
+double wide_cost_of(const Built& built) {
+    if (const auto* wide4 = built.structure.as<WideBvh<4>>()) return cost_of_wide(*wide4);
+    if (const auto* wide8 = built.structure.as<WideBvh<8>>()) return cost_of_wide(*wide8);
+    throw Error(ExitCode::WrongUsage, "wide_cost is of wide BVHs, " + print(built.recipe) + " makes none");
 }
 
 double value_of(const Built& built, TreeValue value) {
     const NodeList& list = built.levels->list;
     switch (value) {
         case TreeValue::SahCost:
-            return cost_by_packs(list, 1);
-        case TreeValue::PackCost:
-            return cost_by_packs(list, kPackSize);
+            return sah_cost(list);
+        case TreeValue::WideCost:
+            return wide_cost_of(built);
         case TreeValue::References:
             return static_cast<double>(list.ref_prims.size());
         case TreeValue::Nodes:

@@ -13,8 +13,7 @@ namespace boxwood::bench {
 /// What a promise about trees is about; none depends on the machine.
 enum class TreeValue : uint8_t {
     SahCost,
-    PackCost,  ///< the same with a leaf that costs one for each four primitives or part of it, as wide nodes
-               ///< do
+    WideCost,  ///< of wide BVHs, see wide_cost; costs of nodes and packs as wide4 and wide8 have them
     References,
     Nodes,
     Bytes,
@@ -29,7 +28,7 @@ struct TreePromise {
 };
 
 /// "sah_cost: bvh-sweep-sah <= 1.5 * bvh-binned-sah": value, recipe, factor (1 where left out), recipe. The
-/// values are sah_cost, pack_cost, references, nodes and bytes. Throws Error (WrongUsage) that says what was
+/// values are sah_cost, wide_cost, references, nodes and bytes. Throws Error (WrongUsage) that says what was
 /// expected.
 TreePromise parse_promise(const std::string& text);
 

@@ -46,9 +46,13 @@ protected:
 };
 
 TEST_F(Promises, ValuesOfAListByHand) {
-    // One leaf of ten primitives: ten tests, or three packs of four.
+    // One leaf of ten primitives: ten tests, or three packs of four below the root.
     EXPECT_EQ(check("sah_cost: none <= none").value, 10.0);
-    EXPECT_EQ(check("pack_cost: none <= none").value, 3.0);
+    EXPECT_EQ(check("wide_cost: bvh-sweep-sah(max-leaf-size=64, traversal-cost=16) > wide4 <= "
+                    "bvh-sweep-sah(max-leaf-size=64, traversal-cost=16) > wide4")
+                  .value,
+              4.0);
+    EXPECT_THROW(check("wide_cost: none <= none"), Error);
     EXPECT_EQ(check("references: none <= none").value, 10.0);
     EXPECT_EQ(check("nodes: none <= none").value, 1.0);
     EXPECT_EQ(check("bytes: none <= none").value, 40.0);

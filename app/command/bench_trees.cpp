@@ -8,10 +8,9 @@ namespace {
 
 constexpr const char* kFooter =
     "A promise is VALUE: RECIPE <= [FACTOR *] RECIPE, for example\n"
-    "\"sah_cost: bvh-sweep-sah <= 1.1 * bvh-binned-sah\". Values: sah_cost, in triangle tests; pack_cost, "
-    "the "
-    "same\n"
-    "where a leaf costs one for each four primitives or part of it; references in leaves; nodes; bytes.\n"
+    "\"sah_cost: bvh-sweep-sah <= 1.1 * bvh-binned-sah\". Values: sah_cost, in triangle tests; wide_cost, "
+    "of\n"
+    "wide BVHs, with the costs of nodes and packs of wide4 and wide8; references in leaves; nodes; bytes.\n"
     "Exit code 1 where a promise does not hold on a scene.\n\n";
 
 }  // namespace
