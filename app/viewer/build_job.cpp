@@ -176,7 +176,7 @@ SideResult BuildJob::make(const std::string& text, Task& task, const ShowMeanwhi
             std::optional<Built> built = run_recipe(*other, scene_, *cache_, task, /*with_levels=*/true);
             if (!built) return result;
             show(finished(std::move(*built)));
-            say(sentence + "; until then " + print(*other) + " is shown");
+            say(sentence + "; until then " + other->builder.text() + " is shown");
         }
         std::optional<Built> built = run_recipe(recipe, scene_, *cache_, task, /*with_levels=*/true);
         if (!built) return result;
