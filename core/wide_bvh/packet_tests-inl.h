@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include <bit>
+#include <cstring>
 
 #include "core/base/ray.h"
 #include "core/structure/filter.h"
@@ -35,7 +36,9 @@ template <class D>
 HWY_INLINE uint32_t mask_bits(D d, hn::Mask<D> mask) {
     uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, mask, bytes);
-    return bytes[0] | static_cast<uint32_t>(bytes[1]) << 8;
+    uint16_t bits;
+    std::memcpy(&bits, bytes, sizeof bits);
+    return bits;
 }
 HWY_INLINE uint32_t packet_bits(hn::Mask<PacketTag> mask) { return mask_bits(PacketTag(), mask); }
 HWY_INLINE hn::Mask<PacketTag> packet_mask(uint32_t bits) {

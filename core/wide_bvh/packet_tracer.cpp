@@ -58,30 +58,43 @@ struct PacketSearch {
     }
 
     HWY_INLINE void test(const PacketRays& ray, std::span<const Pack> leaf) {
-        for (const Pack& pack : leaf)
-            for (uint32_t first = 0; first < Width; first += kPart) test_part(ray, pack, first);
+        for (const Pack& pack : leaf) {
+            const uint32_t count = count_of(pack);
+            for (uint32_t first = 0; first < count; first += kPart)
+                test_part(ray, pack, first, std::min(kPart, count - first));
+        }
     }
-    HWY_INLINE void test_part(const PacketRays& ray, const Pack& pack, uint32_t first) {
+    /// Lanes before the first of those that repeat the last one, and one of these.
+    static HWY_INLINE uint32_t count_of(const Pack& pack) {
+        const hn::CappedTag<uint32_t, Width> du;
+        if constexpr (hn::MaxLanes(du) < Width) {
+            return pack.count();
+        } else {
+            const auto is_last = hn::Eq(hn::LoadU(du, pack.prims), hn::Set(du, pack.prims[Width - 1]));
+            return static_cast<uint32_t>(std::countr_zero(mask_bits(du, is_last))) + 1;
+        }
+    }
+    /// The first `count` triangles of a part of the pack, one at least.
+    HWY_INLINE void test_part(const PacketRays& ray, const Pack& pack, uint32_t first, uint32_t count) {
         const PacketTag d;
         const PackEdges<Width> edges(pack, first, ray);
         uint32_t open[kPart], hit[kPart], any = 0;
-        for (uint32_t lane = 0; lane < kPart; ++lane) {
+        for (uint32_t lane = 0; lane < count; ++lane) {
             open[lane] = hit[lane] = 0;
             const PacketVector bound = hn::Set(d, edges.bounds[lane]);
             for (uint32_t i = 0; i < kVectors; ++i) {
                 const EdgeFunctions functions(ray, edges, lane, i);
                 const auto missed = functions.is_missed(bound);
-                const uint32_t missed_bits = packet_bits(missed);
+                if (HWY_LIKELY(hn::AllTrue(d, missed))) continue;
                 const uint32_t all = (1u << kLanes) - 1;
-                if (HWY_LIKELY(missed_bits == all)) continue;
-                open[lane] |= (all & ~missed_bits) << (kLanes * i);
+                open[lane] |= (all & ~packet_bits(missed)) << (kLanes * i);
                 hit[lane] |= packet_bits(functions.is_hit(bound)) << (kLanes * i);
                 any |= 1;
             }
         }
         if (any == 0) return;
         const PackPlanes<Width> planes(edges, ray);
-        for (uint32_t lane = 0; lane < kPart; ++lane)
+        for (uint32_t lane = 0; lane < count; ++lane)
             if (open[lane] != 0) keep(ray, pack, planes, first, lane, open[lane], hit[lane]);
         limit = limits.largest();
     }
