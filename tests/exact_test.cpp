@@ -62,17 +62,13 @@ Ray aimed_ray(const Mesh& mesh, Rng& rng, float offset, float scale) {
     return ray;
 }
 
-void expect_exact(float offset, float scale, uint64_t seed, int ray_count) {
-    const Mesh mesh = nasty_mesh(seed, offset, scale);
+void expect_exact(const Mesh& mesh, const std::vector<Ray>& rays) {
     Task task;
     const Structure structure(BinnedSah{.max_leaf_size = 1}.build(mesh, whole_refs(mesh), task));
-    Rng rng(seed);
-    std::vector<Ray> rays;
-    for (int i = 0; i < ray_count; ++i) rays.push_back(aimed_ray(mesh, rng, offset, scale));
     std::vector<Hit> hits(rays.size());
     std::vector<Count> counts(rays.size());
     structure.closest_hits_counted(mesh, rays, hits, counts, Mode::Exact, task);
-    int hit_count = 0;
+    size_t hit_count = 0;
     uint64_t exact_count = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
         const std::optional<oracle::ExactHit> expected = oracle::closest_hit(mesh, rays[i]);
@@ -83,8 +79,16 @@ void expect_exact(float offset, float scale, uint64_t seed, int ray_count) {
         }
         exact_count += counts[i].exact;
     }
-    EXPECT_GT(hit_count, ray_count / 5);
+    EXPECT_GT(hit_count, rays.size() / 5);
     EXPECT_GT(exact_count, 0u) << "no ray came close to an edge: the test shows nothing";
+}
+
+void expect_exact(float offset, float scale, uint64_t seed, int ray_count) {
+    const Mesh mesh = nasty_mesh(seed, offset, scale);
+    Rng rng(seed);
+    std::vector<Ray> rays;
+    for (int i = 0; i < ray_count; ++i) rays.push_back(aimed_ray(mesh, rng, offset, scale));
+    expect_exact(mesh, rays);
 }
 
 TEST(Exact, AgreesWithRationalArithmetic) { expect_exact(0.0f, 1.0f, 1, 4000); }
@@ -92,6 +96,25 @@ TEST(Exact, AgreesFarFromTheOrigin) { expect_exact(1000.0f, 0.001f, 2, 2000); }
 TEST(Exact, AgreesAtTinyAndHugeScales) {
     expect_exact(0.0f, 0x1p-100f, 3, 1000);
     expect_exact(0.0f, 0x1p100f, 4, 1000);
+}
+
+/// Edge functions are computed in whole numbers up to a factor of 2^16 between components, and otherwise in
+/// sums of doubles.
+TEST(Exact, AgreesWhereComponentsDifferInSize) {
+    for (const int range : {8, 13, 14, 15, 16, 17, 18, 24, 60}) {
+        const Vec3 scale(1.0f, std::ldexp(1.0f, -range), std::ldexp(1.0f, range / 2));
+        Mesh mesh = nasty_mesh(static_cast<uint64_t>(range), 0.0f, 1.0f);
+        Rng rng(static_cast<uint64_t>(range));
+        std::vector<Ray> rays;
+        for (int i = 0; i < 500; ++i) {
+            Ray ray = aimed_ray(mesh, rng, 0.0f, 1.0f);
+            ray.origin *= scale;
+            ray.direction *= scale;
+            rays.push_back(ray);
+        }
+        for (Vec3& position : mesh.positions) position *= scale;
+        expect_exact(mesh, rays);
+    }
 }
 
 TEST(Exact, HasNoLeakAtTheVertexOfAFan) {

@@ -1,6 +1,7 @@
 #include "core/structure/closest.h"
 
 #include <bit>
+#include <initializer_list>
 #include <numeric>
 
 #include "core/base/expansion.h"
@@ -33,6 +34,51 @@ Expansion dot(const Vec3& a, const ExactVec3& b) {
 }
 
 Expansion dot(const ExactVec3& a, const ExactVec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+__extension__ typedef __int128 Whole;
+
+struct WholeVec3 {
+    Whole x, y, z;
+};
+
+/// Vectors of like size as whole numbers: multiples of the last place of the smallest component, zeros left
+/// out. Where the largest component is at most 2^16 times as large, all are below 2^(24 + 16) = 2^40.
+class WholeScale {
+public:
+    explicit WholeScale(std::initializer_list<const Vec3*> vectors) {
+        constexpr uint32_t kRange = 16;
+        uint32_t least = 255, most = 1;  // exponent fields
+        for (const Vec3* v : vectors) {
+            for (int axis = 0; axis < 3; ++axis) {
+                const uint32_t bits = std::bit_cast<uint32_t>((*v)[axis]) & 0x7fffffffu;
+                if (bits == 0) continue;
+                const uint32_t exponent = std::max(bits >> 23, 1u);
+                least = std::min(least, exponent);
+                most = std::max(most, exponent);
+            }
+        }
+        fits_ = most <= least + kRange;
+        // A last place is 2^(exponent - 150), so its inverse, as a double, has exponent 1023 + 150 -
+        // exponent.
+        scale_ = std::bit_cast<double>(uint64_t{1023 + 150 - least} << 52);
+    }
+    bool fits() const { return fits_; }
+    WholeVec3 operator()(const Vec3& v) const { return {whole(v.x), whole(v.y), whole(v.z)}; }
+
+private:
+    int64_t whole(float value) const { return static_cast<int64_t>(static_cast<double>(value) * scale_); }
+
+    bool fits_;
+    double scale_;
+};
+
+WholeVec3 operator-(const WholeVec3& a, const WholeVec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+WholeVec3 cross(const WholeVec3& a, const WholeVec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+int sign_of(Whole value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
 /// Place of a float among all floats in ascending order; both zeros have place 0.
 int32_t ordered(float value) {
@@ -71,11 +117,23 @@ struct ExactT {
 
 /// Sign of the edge function d.(P x Q), P = p - o, Q = q - o: 0 where the ray's line meets that of the edge.
 int edge_sign(const Ray& ray, const Vec3& p, const Vec3& q) {
+    const WholeScale of_points({&ray.origin, &p, &q}), of_direction({&ray.direction});
+    if (of_points.fits() && of_direction.fits()) {
+        // Differences are below 2^41, the cross product below 2^83, d.(P x Q) below 3 * 2^123.
+        const WholeVec3 o = of_points(ray.origin), d = of_direction(ray.direction);
+        const WholeVec3 n = cross(of_points(p) - o, of_points(q) - o);
+        return sign_of(d.x * n.x + d.y * n.y + d.z * n.z);
+    }
     return dot(ray.direction, cross(difference(p, ray.origin), difference(q, ray.origin))).sign();
 }
 
 /// Whether the ray's line passes through p: whether d x (p - o) is zero.
 bool passes_through(const Ray& ray, const Vec3& p) {
+    const WholeScale of_points({&ray.origin, &p}), of_direction({&ray.direction});
+    if (of_points.fits() && of_direction.fits()) {
+        const WholeVec3 n = cross(of_direction(ray.direction), of_points(p) - of_points(ray.origin));
+        return n.x == 0 && n.y == 0 && n.z == 0;
+    }
     const ExactVec3 to_p = difference(p, ray.origin);
     const DVec3 d(ray.direction);
     return (to_p.y * d.z - to_p.z * d.y).sign() == 0 && (to_p.z * d.x - to_p.x * d.z).sign() == 0 &&
