@@ -86,16 +86,23 @@ CameraRaster::CameraRaster(const CameraFrame& frame, int width, int height) : fr
 
 void CameraRaster::rays_through(std::span<const uint32_t> pixels, std::span<Ray> rays) const {
     const auto width = static_cast<uint32_t>(columns_.size());
-    Ray ray = ray_at(frame_, DVec3(0.0));
+    const Ray middle = ray_at(frame_, DVec3(0.0));
+    uint32_t y = 0;
+    const auto offset = [&](uint32_t pixel) {
+        if (pixel - y * width >= width) y = pixel / width;  // seldom: pixels of one row follow each other
+        return columns_[pixel - y * width] + rows_[y];
+    };
+    // Each ray is written in place: the parts of a copy would be read again before they are in the cache.
     for (size_t i = 0; i < pixels.size(); ++i) {
-        const uint32_t y = pixels[i] / width;
-        const DVec3 offset = columns_[pixels[i] - y * width] + rows_[y];
+        rays[i].t_min = middle.t_min;
+        rays[i].t_max = middle.t_max;
         if (frame_.orthographic) {
-            ray.origin = Vec3(frame_.eye + offset);
+            rays[i].origin = Vec3(frame_.eye + offset(pixels[i]));
+            rays[i].direction = middle.direction;
         } else {
-            ray.direction = Vec3(frame_.forward + offset);
+            rays[i].origin = middle.origin;
+            rays[i].direction = Vec3(frame_.forward + offset(pixels[i]));
         }
-        rays[i] = ray;
     }
 }
 
