@@ -31,7 +31,7 @@ struct BuildRow {
     std::vector<double> ms;             ///< of each round: references, builder, transforms
     std::vector<double> references_ms;  ///< their part of it
     /// Own time over that of a peer on as many threads in the same rounds, beside the peer's name.
-    std::vector<std::pair<std::string, Interval>> over_peers;
+    std::vector<std::pair<std::string, RatioInterval>> over_peers;
     std::map<std::string, uint64_t> skipped;  ///< by the last build
 };
 

@@ -9,6 +9,7 @@
 
 #include "bench/double_path.h"
 #include "bench/error_judge.h"
+#include "bench/ratios.h"
 #include "bench/ray_sets.h"
 #include "bench/timing.h"
 #include "core/base/rng.h"
@@ -18,12 +19,10 @@ namespace boxwood::bench {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 /// One who casts: a recipe's structure in one way.
 struct Caster {
     size_t recipe;
-    Contestant contestant;
+    Precision contestant;
     std::function<void(std::span<const Ray>, std::span<Hit>)> cast;
     std::function<void(std::span<const Ray>, std::span<Hit>, std::span<Count>)> cast_counted;
     uint64_t bytes;
@@ -32,7 +31,7 @@ struct Caster {
 Caster caster_in(Mode mode, size_t recipe, const Built& built, const Task& task) {
     const Structure& structure = built.structure;
     const Mesh& mesh = built.scene->mesh;
-    return {recipe, mode == Mode::Exact ? Contestant::Exact : Contestant::Fast,
+    return {recipe, mode == Mode::Exact ? Precision::Exact : Precision::Fast,
             [&, mode](std::span<const Ray> rays, std::span<Hit> hits) {
                 structure.closest_hits(mesh, rays, hits, mode, task);
             },
@@ -52,7 +51,7 @@ std::vector<Caster> casters_of(const std::vector<Built>& built, const Task& task
         const auto shared = std::make_shared<const DoubleTracer>(std::move(*tracer));
         const Mesh& mesh = built[i].scene->mesh;
         casters.push_back(
-            {i, Contestant::Double,
+            {i, Precision::Double,
              [shared, &mesh](std::span<const Ray> rays, std::span<Hit> hits) {
                  shared->closest_hits(mesh, rays, hits);
              },
@@ -101,7 +100,7 @@ void compare_with_fast(std::span<ErrorRow> rows) {
     for (ErrorRow& row : rows) {
         row.over_fast = kNan;
         const auto fast = std::ranges::find_if(rows, [&](const ErrorRow& other) {
-            return other.recipe == row.recipe && other.contestant == Contestant::Fast;
+            return other.recipe == row.recipe && other.contestant == Precision::Fast;
         });
         if (fast == rows.end() || row.rounds.ms.size() != fast->rounds.ms.size()) continue;
         std::vector<double> ratios;
@@ -162,8 +161,8 @@ double Rounds::greatest() const { return ms.empty() ? kNan : *std::ranges::max_e
 
 bool ErrorRow::holds() const {
     if (rounds.refused > 0) return false;
-    if (contestant == Contestant::Exact) return errors.wrong() == 0;
-    return contestant == Contestant::Double || (errors.wrong_plain == 0 && errors.beyond_bound == 0);
+    if (contestant == Precision::Exact) return errors.wrong() == 0;
+    return contestant == Precision::Double || (errors.wrong_plain == 0 && errors.beyond_bound == 0);
 }
 
 std::vector<ErrorRow> run_error(std::shared_ptr<const Scene> scene, const ErrorSettings& settings,

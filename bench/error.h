@@ -13,7 +13,7 @@
 namespace boxwood::bench {
 
 /// Who casts the rays: the two modes, and plain double precision over the same boxes (DoubleTracer).
-enum class Contestant : uint8_t { Exact, Fast, Double };
+enum class Precision : uint8_t { Exact, Fast, Double };
 
 inline constexpr const char* kContestantNames[] = {"exact", "fast", "double"};
 
@@ -60,7 +60,7 @@ struct Rounds {
 /// One recipe, one kind of rays, one contestant.
 struct ErrorRow {
     std::string scene, recipe, rays_kind;
-    Contestant contestant = Contestant::Exact;
+    Precision contestant = Precision::Exact;
     uint64_t triangles = 0, references = 0, bytes = 0;
     double build_ms = 0.0;
     uint64_t rays = 0, rays_hash = 0;

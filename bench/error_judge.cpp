@@ -7,6 +7,7 @@
 #include "bench/error_judge.h"
 #include "bench/fast_bound.h"
 #include "bench/plain_ray.h"
+#include "bench/ratios.h"
 #include "core/base/parallel.h"
 
 namespace boxwood::bench {
@@ -14,7 +15,6 @@ namespace boxwood::bench {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Distance from t to the next float.
 double unit_in_last_place(float t) {
@@ -46,7 +46,7 @@ SampleJudge::SampleJudge(const Mesh& mesh, std::span<const Ray> rays, size_t str
     expected_ = closest_hits(ScreenedOracle(mesh), rays_);
 }
 
-Errors SampleJudge::judge(std::span<const Hit> hits, Contestant contestant) const {
+Errors SampleJudge::judge(std::span<const Hit> hits, Precision contestant) const {
     Errors errors;
     errors.sample = rays_.size();
     std::vector<size_t> wrong;  // hit for miss, or miss for hit
@@ -61,10 +61,10 @@ Errors SampleJudge::judge(std::span<const Hit> hits, Contestant contestant) cons
         } else if (expected) {
             const float rounded = oracle::round_to_float(expected->t);
             t_errors.push_back(error_of(found.t, expected->t, rounded));
-            if (contestant == Contestant::Exact &&
+            if (contestant == Precision::Exact &&
                 std::bit_cast<uint32_t>(found.t) != std::bit_cast<uint32_t>(rounded))
                 ++errors.wrong_t;
-            if (contestant != Contestant::Fast) continue;
+            if (contestant != Precision::Fast) continue;
             t_bounds.push_back(fast_t_bound(rays_[i], mesh_.triangle(found.prim)) /
                                unit_in_last_place(rounded));
             if (t_errors.back() > t_bounds.back()) ++errors.beyond_bound;
@@ -80,9 +80,9 @@ Errors SampleJudge::judge(std::span<const Hit> hits, Contestant contestant) cons
     errors.wrong_sensitive = wrong.size() - errors.wrong_plain;
     errors.t_error_p99 = percentile(t_errors, 0.99);
     errors.t_error = percentile(t_errors, 1.0);
-    errors.t_bound_p99 = contestant == Contestant::Exact ? 0.5 : kNan;
+    errors.t_bound_p99 = contestant == Precision::Exact ? 0.5 : kNan;
     errors.t_bound = errors.t_bound_p99;
-    if (contestant == Contestant::Fast) {
+    if (contestant == Precision::Fast) {
         errors.t_bound_p99 = percentile(t_bounds, 0.99);
         errors.t_bound = percentile(t_bounds, 1.0);
     }

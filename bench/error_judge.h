@@ -16,7 +16,7 @@ public:
     SampleJudge(const Mesh& mesh, std::span<const Ray> rays, size_t stride);
 
     /// hits[i] is the contestant's answer for ray i, all rays counted.
-    Errors judge(std::span<const Hit> hits, Contestant contestant) const;
+    Errors judge(std::span<const Hit> hits, Precision contestant) const;
 
 private:
     const Mesh& mesh_;

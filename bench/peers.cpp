@@ -17,7 +17,6 @@ namespace boxwood::bench {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr uint32_t kTile = 16, kBlock = 4;  ///< pixels along a side: the renderer's tile, a packet
 /// Rounds over all contestants until the time is used.
 void time_rounds(std::span<const Contestant> contestants, const RaySet& set, int threads,

@@ -49,7 +49,7 @@ struct PeerRow {
     uint64_t disputed = 0;  ///< rays of the cell that contestants answer differently
     PeerErrors errors;
     std::string best_peer;  ///< of the cell
-    Interval ratio;         ///< rate over the best peer's; NaN where there is none
+    RatioInterval ratio;    ///< rate over the best peer's; NaN where there is none
     std::vector<std::pair<std::string, double>> over_peers;  ///< rate over that of each peer of the cell
     double over_fast = 0.0;  ///< exact mode: its time over fast mode's; otherwise NaN
 

@@ -12,8 +12,8 @@
 namespace boxwood::bench {
 namespace {
 
-constexpr size_t kBatch = 256;     // rays between two looks at the task
-constexpr uint64_t kBlock = 2048;  // rays timed at once
+constexpr size_t kBatch = 256;        // rays between two looks at the task
+constexpr uint64_t kRayBlock = 2048;  // rays timed at once
 
 std::vector<Ray> rays_through(std::span<const uint32_t> pixels, const PictureCheckSettings& settings) {
     const CameraFrame frame =
@@ -77,17 +77,17 @@ std::vector<uint32_t> spread_order(uint64_t total) {
     return order;
 }
 
-std::array<RayTiming, 2> time_in_turns(const Mesh& mesh, const std::array<TimedRays, 2>& contenders,
+std::array<RayTiming, 2> time_in_turns(const Mesh& mesh, const std::array<Contender, 2>& contenders,
                                        const PictureCheckSettings& settings, Task& task) {
     const uint64_t ray_count = static_cast<uint64_t>(settings.width) * static_cast<uint64_t>(settings.height);
-    const std::vector<uint32_t> blocks = spread_order((ray_count + kBlock - 1) / kBlock);
-    std::vector<Hit> hits(kBlock);
+    const std::vector<uint32_t> blocks = spread_order((ray_count + kRayBlock - 1) / kRayBlock);
+    std::vector<Hit> hits(kRayBlock);
     std::array<double, 2> ms{};
     std::array<RayTiming, 2> timings;
     const Timer timer;
     for (size_t i = 0; timer.milliseconds() < 1000.0 * settings.seconds && !task.stopped(); ++i) {
-        const uint64_t first = blocks[i % blocks.size()] * kBlock;
-        std::vector<uint32_t> pixels(std::min(kBlock, ray_count - first));
+        const uint64_t first = blocks[i % blocks.size()] * kRayBlock;
+        std::vector<uint32_t> pixels(std::min(kRayBlock, ray_count - first));
         std::iota(pixels.begin(), pixels.end(), static_cast<uint32_t>(first));
         const std::vector<Ray> rays = rays_through(pixels, settings);
         // The second one finds what it needs in the caches: each is the first in every other block.

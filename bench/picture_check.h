@@ -46,7 +46,7 @@ PictureCheck check_picture(const Mesh& mesh, const Structure& structure, const P
                            Task& task);
 
 /// Who casts the rays that are timed.
-struct TimedRays {
+struct Contender {
     const Structure* structure;
     Mode mode = Mode::Exact;
 };
@@ -59,7 +59,7 @@ struct RayTiming {
 /// Both in turns over the same rays of the picture until settings.seconds are used, so that a change of the
 /// machine's speed meets both. Blocks of neighbouring pixels, as a picture is traced; the blocks are spread
 /// over the picture. After a stop not to be used.
-std::array<RayTiming, 2> time_in_turns(const Mesh& mesh, const std::array<TimedRays, 2>& contenders,
+std::array<RayTiming, 2> time_in_turns(const Mesh& mesh, const std::array<Contender, 2>& contenders,
                                        const PictureCheckSettings& settings, Task& task);
 
 /// `count` different numbers below `total`, ascending and evenly spread; all where there are no more.

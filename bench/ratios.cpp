@@ -44,8 +44,7 @@ RatioSummary summary_of(const std::string& contestant, std::span<const RatioCell
 
 }  // namespace
 
-Interval ratio_of_medians(std::span<const double> above, std::span<const double> below) {
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+RatioInterval ratio_of_medians(std::span<const double> above, std::span<const double> below) {
     if (above.empty() || above.size() != below.size()) return {kNan, kNan, kNan};
     const size_t count = above.size();
     std::vector<double> first(above.begin(), above.end()), second(below.begin(), below.end());

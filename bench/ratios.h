@@ -1,14 +1,17 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace boxwood::bench {
 
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
 /// A value with the interval that holds it in 95 of 100 repetitions.
-struct Interval {
+struct RatioInterval {
     double value = 0.0, lower = 0.0, upper = 0.0;
 };
 
@@ -16,7 +19,7 @@ struct Interval {
 /// drawn again with repetition, 500 times, both sides the same ones. Efron, "Bootstrap Methods: Another Look
 /// at the Jackknife", Annals of Statistics 7, 1979; percentiles. NaN where a side is empty or their lengths
 /// differ.
-Interval ratio_of_medians(std::span<const double> above, std::span<const double> below);
+RatioInterval ratio_of_medians(std::span<const double> above, std::span<const double> below);
 
 /// One contestant in one cell: how its rate stands to the best peer's.
 struct RatioCell {

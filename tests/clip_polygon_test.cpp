@@ -7,6 +7,7 @@
 
 #include "core/base/rng.h"
 #include "oracle/polygon.h"
+#include "support/triangle_soup.h"
 
 namespace boxwood {
 namespace {
@@ -32,23 +33,6 @@ void expect_smallest_box(const Triangle& triangle, const Box& box) {
         ASSERT_GE(mpq_class(double(result.upper[axis])), upper);
         ASSERT_TRUE(std::isinf(previous) || mpq_class(double(previous)) < upper);
     }
-}
-
-Vec3 random_point(Rng& rng, float lower, float upper) {
-    const float x = rng.next(lower, upper), y = rng.next(lower, upper), z = rng.next(lower, upper);
-    return {x, y, z};
-}
-
-Box random_box(Rng& rng, float lower, float upper) {
-    Box box;
-    box.extend(random_point(rng, lower, upper));
-    box.extend(random_point(rng, lower, upper));
-    return box;
-}
-
-Triangle random_triangle(Rng& rng, float lower, float upper) {
-    const Vec3 a = random_point(rng, lower, upper), b = random_point(rng, lower, upper);
-    return {a, b, random_point(rng, lower, upper)};
 }
 
 /// A whole number of -2 to 2 on each axis: corners on planes, edges in faces, through edges and corners.

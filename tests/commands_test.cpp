@@ -30,7 +30,7 @@ std::string content_of(const std::string& path) {
 }
 
 /// The program itself, in a folder of its own.
-class Program : public ::testing::Test {
+class CommandLine : public ::testing::Test {
 protected:
     Ended run(const std::string& arguments, const std::string& input = "") const {
         const std::string errors = folder_.write("errors.txt", "");
@@ -58,7 +58,7 @@ protected:
     TemporaryFolder folder_;
 };
 
-TEST_F(Program, HelpNamesEveryCommandAndEveryCommandHasHelp) {
+TEST_F(CommandLine, HelpNamesEveryCommandAndEveryCommandHasHelp) {
     const Ended help = run("--help");
     EXPECT_EQ(help.exit_code, 0);
     for (const char* command : {"trace", "stats", "verify", "cast", "scenes", "list", "bench"}) {
@@ -70,7 +70,7 @@ TEST_F(Program, HelpNamesEveryCommandAndEveryCommandHasHelp) {
     EXPECT_EQ(run("--version").output.substr(0, 8), "boxwood ");
 }
 
-TEST_F(Program, WrongUsageExitsWith2AndNamesTheNearestWord) {
+TEST_F(CommandLine, WrongUsageExitsWith2AndNamesTheNearestWord) {
     expect_refusal("stast cornell", 2, "did you mean stats?");
     expect_refusal("cornel", 2, "did you mean cornell?");
     expect_refusal("stats cornell --jsn -", 2, "did you mean --json?");
@@ -85,7 +85,7 @@ TEST_F(Program, WrongUsageExitsWith2AndNamesTheNearestWord) {
     expect_refusal("trace cornell -o no/such/folder/x.png", 2, "no/such/folder/x.png");
 }
 
-TEST_F(Program, InputThatCannotBeReadExitsWith3) {
+TEST_F(CommandLine, InputThatCannotBeReadExitsWith3) {
     expect_refusal("stats no_such_file.obj --json -", 3, "no_such_file.obj");
     const std::string points = folder_.write(
         "points.ply",
@@ -96,7 +96,7 @@ TEST_F(Program, InputThatCannotBeReadExitsWith3) {
     EXPECT_NE(run_points.error.find("2 points and no triangles"), std::string::npos) << run_points.error;
 }
 
-TEST_F(Program, StatsPrintsARowForEachSceneAndRecipe) {
+TEST_F(CommandLine, StatsPrintsARowForEachSceneAndRecipe) {
     const Ended result =
         run("stats cornell two-triangles -r bvh-sweep-sah -r 'evh(t=12) > bvh-binned-sah' --json -");
     ASSERT_EQ(result.exit_code, 0) << result.error;
@@ -118,20 +118,20 @@ TEST_F(Program, StatsPrintsARowForEachSceneAndRecipe) {
     EXPECT_GT(json["rows"][3]["references_made"].get<int>(), 2);
 }
 
-TEST_F(Program, AnUnreadableSceneDoesNotKeepTheOthersFromBeingDone) {
+TEST_F(CommandLine, AnUnreadableSceneDoesNotKeepTheOthersFromBeingDone) {
     const Ended result = run("stats no_such_file.obj cornell -r bvh-sweep-sah --json -");
     EXPECT_EQ(result.exit_code, 3);
     ASSERT_EQ(Json::parse(result.output)["rows"].size(), 1u);
 }
 
-TEST_F(Program, AJsonFileIsWrittenBesideTheTable) {
+TEST_F(CommandLine, AJsonFileIsWrittenBesideTheTable) {
     const std::string file = folder_.write("out.json", "old");
     const Ended result = run("scenes --json " + file);
     EXPECT_NE(result.output.find("two-triangles"), std::string::npos);
     EXPECT_GE(Json::parse(content_of(file))["rows"].size(), 5u);
 }
 
-TEST_F(Program, ListGivesTheThreeTables) {
+TEST_F(CommandLine, ListGivesTheThreeTables) {
     const Json json = Json::parse(run("list --json -").output);
     EXPECT_EQ(json["references"][0]["id"], "whole");
     EXPECT_EQ(json["builders"][0]["id"], "none");
@@ -140,7 +140,7 @@ TEST_F(Program, ListGivesTheThreeTables) {
     EXPECT_NE(text.output.find("t=14 (0 to 40)"), std::string::npos) << text.output;
 }
 
-TEST_F(Program, VerifyComparesEveryStageWithBruteForce) {
+TEST_F(CommandLine, VerifyComparesEveryStageWithBruteForce) {
     const Ended result = run("verify two-triangles cornell --rays 400 --json -");
     EXPECT_EQ(result.exit_code, 0) << result.error;
     const Json json = Json::parse(result.output);
@@ -151,7 +151,7 @@ TEST_F(Program, VerifyComparesEveryStageWithBruteForce) {
     }
 }
 
-TEST_F(Program, CastNamesPrimitivesAndDistances) {
+TEST_F(CommandLine, CastNamesPrimitivesAndDistances) {
     // The triangle of the file counted as 1 is the only one with an area.
     const std::string scene =
         folder_.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 4\nf 1 2 3\n");
@@ -168,14 +168,14 @@ TEST_F(Program, CastNamesPrimitivesAndDistances) {
     EXPECT_EQ(content_of(output), result.output);
 }
 
-TEST_F(Program, CastRefusesABadLineAndLeavesTheOldOutput) {
+TEST_F(CommandLine, CastRefusesABadLineAndLeavesTheOldOutput) {
     const std::string rays = folder_.write("rays.txt", "a 0 0 0 0 0 1 -1 1\n");
     const std::string output = folder_.write("hits.txt", "old");
     expect_refusal("cast cornell --rays " + rays + " -o " + output, 3, "line 1: tmin is -1");
     EXPECT_EQ(content_of(output), "old");
 }
 
-TEST_F(Program, TraceWritesAPictureAndItsCost) {
+TEST_F(CommandLine, TraceWritesAPictureAndItsCost) {
     const std::string file = folder_.write("a.png", "");
     const Ended result = run("trace cornell --size 40x30 --spp 1 -r bvh-sweep-sah -o " + file + " --json -");
     ASSERT_EQ(result.exit_code, 0) << result.error;
@@ -189,7 +189,7 @@ TEST_F(Program, TraceWritesAPictureAndItsCost) {
     EXPECT_EQ(Json::parse(png.session_text)["scene"], "cornell");
 }
 
-TEST_F(Program, ACameraComesFromATableOfViews) {
+TEST_F(CommandLine, ACameraComesFromATableOfViews) {
     const std::string scene = folder_.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const std::string views =
         folder_.write("views.tsv",
@@ -208,7 +208,7 @@ TEST_F(Program, ACameraComesFromATableOfViews) {
     expect_refusal("trace " + scene + " -r none --view at", 2, "--views FILE");
 }
 
-TEST_F(Program, BenchInteractTimesStepsAndStops) {
+TEST_F(CommandLine, BenchInteractTimesStepsAndStops) {
     const Ended result = run("bench interact -s cornell --steps 2 --first-t 10 --stops 5 --json -");
     ASSERT_EQ(result.exit_code, 0) << result.error;
     const Json rows = Json::parse(result.output)["rows"];
@@ -222,7 +222,7 @@ TEST_F(Program, BenchInteractTimesStepsAndStops) {
 
 constexpr const char* kQuickly = " -n 100 --rounds 2 --round-ms 0.2 --builds 1 --json -";
 
-TEST_F(Program, BenchLectureSetsNumbersBesideTheLecturesWords) {
+TEST_F(CommandLine, BenchLectureSetsNumbersBesideTheLecturesWords) {
     const Ended result = run(std::string("bench lecture -s cornell") + kQuickly);
     ASSERT_EQ(result.exit_code, 0) << result.error;
     const Json json = Json::parse(result.output);
@@ -240,7 +240,7 @@ TEST_F(Program, BenchLectureSetsNumbersBesideTheLecturesWords) {
     EXPECT_NE(table.output.find("by our rule"), std::string::npos) << table.output;
 }
 
-TEST_F(Program, BenchAmortizeSaysWhoWinsForEachDecadeOfRays) {
+TEST_F(CommandLine, BenchAmortizeSaysWhoWinsForEachDecadeOfRays) {
     const Ended result = run(std::string("bench amortize -s cornell -r none -r bvh-sweep-sah") + kQuickly);
     ASSERT_EQ(result.exit_code, 0) << result.error;
     const Json json = Json::parse(result.output);
@@ -250,7 +250,7 @@ TEST_F(Program, BenchAmortizeSaysWhoWinsForEachDecadeOfRays) {
     EXPECT_EQ(json["winners"][6]["rays"], 10000000000);
 }
 
-TEST_F(Program, BenchPeersPrintsRowsAndASummary) {
+TEST_F(CommandLine, BenchPeersPrintsRowsAndASummary) {
     const Ended result = run(
         "bench peers -s cornell -r bvh-sweep-sah --size 16 --rounds 2 --seconds 0 --sample 20 --threads 1 "
         "-k primary -k shadow -p embree:high --json -");
@@ -272,7 +272,7 @@ TEST(PeerOptions, WithoutPeersOneSentenceSaysSo) {
     EXPECT_NE(missing_peers_note(false).find("libembree-dev"), std::string::npos);
 }
 
-TEST_F(Program, BenchBuildsAndScaleRun) {
+TEST_F(CommandLine, BenchBuildsAndScaleRun) {
     const Ended builds = run("bench builds -s cornell -r bvh-sweep-sah --rounds 1 --threads 1 --json -");
     ASSERT_EQ(builds.exit_code, 0) << builds.error;
     EXPECT_EQ(Json::parse(builds.output)["rows"][0]["recipe"], "bvh-sweep-sah");
@@ -286,7 +286,7 @@ TEST_F(Program, BenchBuildsAndScaleRun) {
     expect_refusal("bench scale --most all", 2, "a number of triangles");
 }
 
-TEST_F(Program, BenchMeasuresSetsMeasuresBesideRates) {
+TEST_F(CommandLine, BenchMeasuresSetsMeasuresBesideRates) {
     const Ended result =
         run(std::string("bench measures -s cornell -r bvh-sweep-sah -r bvh-object-median -r kd-sah "
                         "-r 'bvh-sweep-sah > spheres'") +
@@ -301,7 +301,7 @@ TEST_F(Program, BenchMeasuresSetsMeasuresBesideRates) {
     EXPECT_EQ(json["predictions"].size(), 3u * 2u * 8u);
 }
 
-TEST_F(Program, BenchTreesEndsWith1WhereAPromiseDoesNotHold) {
+TEST_F(CommandLine, BenchTreesEndsWith1WhereAPromiseDoesNotHold) {
     const std::string scene = "bench trees -s cornell --json - --promise ";
     const Ended kept = run(scene + "'sah_cost: bvh-sweep-sah <= bvh-object-median'");
     EXPECT_EQ(kept.exit_code, 0) << kept.error;
@@ -313,7 +313,7 @@ TEST_F(Program, BenchTreesEndsWith1WhereAPromiseDoesNotHold) {
     expect_refusal(scene + "'sah: none <= none'", 2, "did you mean sah_cost?");
 }
 
-TEST_F(Program, BenchCollapseSaysWhatLeastCostGainsOverGreedy) {
+TEST_F(CommandLine, BenchCollapseSaysWhatLeastCostGainsOverGreedy) {
     const Ended result = run("bench collapse -s cornell -r bvh-spatial-median --builds 1 --json -");
     ASSERT_EQ(result.exit_code, 0) << result.error;
     const Json rows = Json::parse(result.output)["rows"];
@@ -323,7 +323,7 @@ TEST_F(Program, BenchCollapseSaysWhatLeastCostGainsOverGreedy) {
     expect_refusal("bench collapse -s cornell -r kd-sah", 2, "wide4 needs a binary BVH");
 }
 
-TEST_F(Program, BenchRefitNeedsAnAnimatedSceneAndWhatCanBeRefitted) {
+TEST_F(CommandLine, BenchRefitNeedsAnAnimatedSceneAndWhatCanBeRefitted) {
     const Ended result =
         run(std::string("bench refit -r bvh-spatial-median --every 100 --from 20") + kQuickly);
     ASSERT_EQ(result.exit_code, 0) << result.error;

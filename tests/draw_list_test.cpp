@@ -7,7 +7,7 @@ namespace {
 
 /// Root [0,2]x[0,1]x[0,1]: half area 5. Left leaf: unit cube, half area 3, two references. Right inner node:
 /// unit cube with two leaves of half its width (half area 2), one and three references.
-NodeList small_tree() {
+NodeList tree_to_draw() {
     const Box all = {Vec3(0.0f), Vec3(2.0f, 1.0f, 1.0f)};
     const Box left = {Vec3(0.0f), Vec3(1.0f)};
     const Box right = {Vec3(1.0f, 0.0f, 0.0f), Vec3(2.0f, 1.0f, 1.0f)};
@@ -26,7 +26,7 @@ NodeList small_tree() {
 }
 
 TEST(BoxValues, CountReferencesBelowAndShareTheCost) {
-    const BoxValues values = make_box_values(small_tree());
+    const BoxValues values = make_box_values(tree_to_draw());
     EXPECT_EQ(values.references, (std::vector<float>{6, 2, 4, 1, 3}));
     EXPECT_EQ(values.references_range, (ValueRange{1, 6}));
     // Terms: 5*1, 3*2, 3*1, 2*1, 2*3; their sum is 22.
@@ -38,7 +38,7 @@ TEST(BoxValues, CountReferencesBelowAndShareTheCost) {
 }
 
 TEST(BoxValues, AcceptATreeWithoutAreaAndNone) {
-    NodeList points = small_tree();
+    NodeList points = tree_to_draw();
     for (NodeView& view : points.nodes) view.bounds = {Vec3(1.0f), Vec3(1.0f)};
     const BoxValues values = make_box_values(points);
     EXPECT_FLOAT_EQ(values.sah_share[4], 3.0f / 8);  // of 1 + 2 + 1 + 1 + 3 visits and tests
@@ -46,7 +46,7 @@ TEST(BoxValues, AcceptATreeWithoutAreaAndNone) {
 }
 
 TEST(DrawList, SelectsTheRangeAndTheLeavesAboveIt) {
-    const LevelTable levels = make_level_table(small_tree());
+    const LevelTable levels = make_level_table(tree_to_draw());
     EXPECT_EQ(select_boxes(levels, {0, 0}, true), (BoxSelection{0, 1, true, 1}));
     EXPECT_EQ(select_boxes(levels, {1, 1}, false), (BoxSelection{1, 3, false, 2}));
     EXPECT_EQ(select_boxes(levels, {2, 2}, false), (BoxSelection{2, 5, false, 2}));
@@ -57,7 +57,7 @@ TEST(DrawList, SelectsTheRangeAndTheLeavesAboveIt) {
 }
 
 TEST(DrawList, FollowsTheState) {
-    const LevelTable levels = make_level_table(small_tree());
+    const LevelTable levels = make_level_table(tree_to_draw());
     const BoxValues values = make_box_values(levels.list);
     ViewerState state;
     EXPECT_EQ(make_draw_list(state, levels, values).mesh, MeshLook::Shaded);
@@ -79,7 +79,7 @@ TEST(DrawList, FollowsTheState) {
 }
 
 TEST(DrawList, ColoursSpanTheValuesAndStandOutFromTheBackground) {
-    const LevelTable levels = make_level_table(small_tree());
+    const LevelTable levels = make_level_table(tree_to_draw());
     const BoxValues values = make_box_values(levels.list);
     ViewerState state;
     state.levels = {0, 999};

@@ -9,6 +9,7 @@
 #include "core/base/rng.h"
 #include "core/refs/subdivision.h"
 #include "oracle/polygon.h"
+#include "support/skipped.h"
 #include "support/triangle_soup.h"
 
 namespace boxwood {
@@ -20,12 +21,6 @@ EarlySplitClipping absolute(double sa) { return {.limit = {.absolute = true, .va
 References make(const Mesh& mesh, const EarlySplitClipping& method) {
     Task task;
     return method.make(mesh, task);
-}
-
-uint64_t skipped(const Task& task, const std::string& reason) {
-    const auto counts = task.skipped.counts();
-    const auto found = counts.find(reason);
-    return found == counts.end() ? 0 : found->second;
 }
 
 /// The boxes of a triangle have disjoint interiors, and the parts of the triangle in them make up all of it:

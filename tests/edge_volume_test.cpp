@@ -14,6 +14,7 @@
 #include "core/refs/whole_boxes.h"
 #include "core/scene/load_file.h"
 #include "oracle/polygon.h"
+#include "support/skipped.h"
 #include "support/triangle_soup.h"
 
 namespace boxwood {
@@ -27,12 +28,6 @@ References make(const Mesh& mesh, int t) {
     EdgeVolume method;
     method.t = t;
     return method.make(mesh, task);
-}
-
-uint64_t skipped(const Task& task, const std::string& reason) {
-    const auto counts = task.skipped.counts();
-    const auto found = counts.find(reason);
-    return found == counts.end() ? 0 : found->second;
 }
 
 /// The rule in exact arithmetic: V / 2^t, the largest edge, the middle, recursion. Counts pieces and hands

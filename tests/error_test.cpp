@@ -58,10 +58,10 @@ struct SensitiveCase {
 TEST(Error, FastModeIsWrongWhereRaysPassAnEdgeCloselyAndExactModeIsNot) {
     const SensitiveCase test;
     const SampleJudge judge(test.mesh, test.rays, 1);
-    const Errors fast = judge.judge(cast(test.mesh, test.rays, Mode::Fast), Contestant::Fast);
+    const Errors fast = judge.judge(cast(test.mesh, test.rays, Mode::Fast), Precision::Fast);
     EXPECT_GT(fast.wrong_sensitive, 0u);
     EXPECT_EQ(fast.wrong_plain, 0u);
-    const Errors exact = judge.judge(cast(test.mesh, test.rays, Mode::Exact), Contestant::Exact);
+    const Errors exact = judge.judge(cast(test.mesh, test.rays, Mode::Exact), Precision::Exact);
     EXPECT_EQ(exact.wrong(), 0u);
     EXPECT_EQ(exact.sample, 64u);
     EXPECT_LE(exact.t_error, 0.5);
@@ -71,19 +71,19 @@ TEST(Error, WrongAnswersAreCountedByKind) {
     const Mesh mesh = one_triangle(Vec3(-1.0f, -1.0f, 3.0f), Vec3(1.0f, -1.0f, 3.0f), Vec3(0.0f, 1.0f, 3.0f));
     const std::vector<Ray> rays(1);  // from the origin along z: t = 3
     const SampleJudge judge(mesh, rays, 1);
-    const auto errors_of = [&](const Hit& hit, Contestant contestant) {
+    const auto errors_of = [&](const Hit& hit, Precision contestant) {
         return judge.judge(std::vector<Hit>{hit}, contestant);
     };
     const float next = std::nextafter(3.0f, 4.0f);
-    EXPECT_EQ(errors_of({3.0f, 0}, Contestant::Exact).wrong(), 0u);
-    EXPECT_EQ(errors_of({}, Contestant::Fast).wrong_plain, 1u);
-    EXPECT_EQ(errors_of({3.0f, 1}, Contestant::Fast).wrong_prims, 1u);
-    EXPECT_EQ(errors_of({next, 0}, Contestant::Exact).wrong_t, 1u);
-    EXPECT_EQ(errors_of({next, 0}, Contestant::Fast).wrong(), 0u);
-    EXPECT_EQ(errors_of({next, 0}, Contestant::Fast).t_error, 1.0);
-    EXPECT_EQ(errors_of({3.0f, 0}, Contestant::Fast).beyond_bound, 0u);
-    EXPECT_EQ(errors_of({next, 0}, Contestant::Fast).beyond_bound, 1u);
-    EXPECT_EQ(errors_of({3.001f, 0}, Contestant::Fast).beyond_bound, 1u);
+    EXPECT_EQ(errors_of({3.0f, 0}, Precision::Exact).wrong(), 0u);
+    EXPECT_EQ(errors_of({}, Precision::Fast).wrong_plain, 1u);
+    EXPECT_EQ(errors_of({3.0f, 1}, Precision::Fast).wrong_prims, 1u);
+    EXPECT_EQ(errors_of({next, 0}, Precision::Exact).wrong_t, 1u);
+    EXPECT_EQ(errors_of({next, 0}, Precision::Fast).wrong(), 0u);
+    EXPECT_EQ(errors_of({next, 0}, Precision::Fast).t_error, 1.0);
+    EXPECT_EQ(errors_of({3.0f, 0}, Precision::Fast).beyond_bound, 0u);
+    EXPECT_EQ(errors_of({next, 0}, Precision::Fast).beyond_bound, 1u);
+    EXPECT_EQ(errors_of({3.001f, 0}, Precision::Fast).beyond_bound, 1u);
 }
 
 TEST(Error, ARayIsSensitiveNearEdgesAndEndsOfItsRange) {
@@ -143,8 +143,7 @@ TEST(Error, FastModeStaysWithinItsBoundAtEveryScale) {
         for (Vec3& position : mesh.positions) position *= scale;
         for (Ray& ray : rays) ray.origin *= scale;
         for (size_t i = 0; i < rays.size(); i += 3) rays[i].direction *= scale;
-        const Errors errors =
-            SampleJudge(mesh, rays, 1).judge(cast(mesh, rays, Mode::Fast), Contestant::Fast);
+        const Errors errors = SampleJudge(mesh, rays, 1).judge(cast(mesh, rays, Mode::Fast), Precision::Fast);
         EXPECT_EQ(errors.beyond_bound, 0u) << exponent;
         EXPECT_EQ(errors.wrong_plain, 0u) << exponent;
         EXPECT_GT(errors.t_error, 0.4) << exponent;

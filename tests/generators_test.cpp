@@ -10,6 +10,7 @@
 #include "core/scene/mesh_hash.h"
 #include "core/scene/mesh_transform.h"
 #include "core/scene/scene.h"
+#include "support/load_text.h"
 
 namespace boxwood {
 namespace {
@@ -224,15 +225,6 @@ TEST(Kitchen, RefusesWhatIsNoFrame) {
             EXPECT_NE(std::string(error.what()).find("0 to 119"), std::string::npos) << error.what();
         }
     }
-}
-
-double area_of(const Mesh& mesh) {
-    double area = 0.0;
-    for (uint32_t prim = 0; prim < mesh.triangle_count(); ++prim) {
-        const Triangle t = mesh.triangle(prim);
-        area += 0.5 * glm::length(glm::cross(DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a)));
-    }
-    return area;
 }
 
 TEST(Mirror, IsOneSurfaceAtTheTwoTessellationsOfThePaper) {

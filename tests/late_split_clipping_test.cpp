@@ -14,6 +14,7 @@
 #include "support/all_recipes.h"
 #include "support/processor_time.h"
 #include "support/random_mesh.h"
+#include "support/skipped.h"
 #include "support/triangle_soup.h"
 
 namespace boxwood {
@@ -32,12 +33,6 @@ Bvh2 one_leaf(const Mesh& mesh) {
 LateSplitBvh cut(const Mesh& mesh, const LateSplitClipping& method, const Bvh2& input) {
     Task task;
     return method.apply(mesh, {}, input, task);
-}
-
-uint64_t skipped(const Task& task, const std::string& reason) {
-    const auto counts = task.skipped.counts();
-    const auto found = counts.find(reason);
-    return found == counts.end() ? 0 : found->second;
 }
 
 Box box_of(const LateSplitBvh::Node& node) { return {node.lower, node.upper}; }

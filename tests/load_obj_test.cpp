@@ -5,11 +5,11 @@
 namespace boxwood {
 namespace {
 
-const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+const std::string kObjSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 TEST(LoadObj, KeepsTheOrderOfFacesAcrossGroupsAndMaterials) {
     const Scene scene =
-        load_bytes("a.obj", kSquare +
+        load_bytes("a.obj", kObjSquare +
                                 "g left\nf 1 2 3\ng right\nusemtl m\nf 2 3 4\ng left\nusemtl n\n"
                                 "f -4 -2 -1\nf 3/1/1 4//2 1/3\n");
     const std::vector<UVec3> expected = {{0, 1, 2}, {1, 2, 3}, {0, 2, 3}, {2, 3, 0}};
@@ -41,17 +41,17 @@ TEST(LoadObj, AnyLineEndContinuationAndTrailingComment) {
 }
 
 TEST(LoadObj, ErrorsNameTheLine) {
-    EXPECT_EQ(refusal_of("a.obj", kSquare + "f 1 2 5\n"),
+    EXPECT_EQ(refusal_of("a.obj", kObjSquare + "f 1 2 5\n"),
               "line 5: vertex index 5, expected 1 to 4 or -1 to -4.");
     EXPECT_EQ(refusal_of("a.obj", "v 0 0\r\r"), "line 1: found \"\", expected the z coordinate of a vertex.");
-    EXPECT_EQ(refusal_of("a.obj", kSquare + "\\\n\nf 1 2 99999999999\n"),
+    EXPECT_EQ(refusal_of("a.obj", kObjSquare + "\\\n\nf 1 2 99999999999\n"),
               "line 7: a vertex index of more than nine digits.");
-    EXPECT_EQ(refusal_of("a.obj", kSquare + "f 1 two 3\n"),
+    EXPECT_EQ(refusal_of("a.obj", kObjSquare + "f 1 two 3\n"),
               "line 5: found \"f 1 two 3\", expected a face of vertex indices.");
 }
 
 TEST(LoadObj, OverflowingCoordinateIsDroppedAndCounted) {
-    const Scene scene = load_bytes("a.obj", kSquare + "v 1e400 0 0\nf 1 2 3\nf 1 2 5\nl 1 2\n");
+    const Scene scene = load_bytes("a.obj", kObjSquare + "v 1e400 0 0\nf 1 2 3\nf 1 2 5\nl 1 2\n");
     EXPECT_EQ(scene.mesh.triangle_count(), 1u);
     const std::map<std::string, uint64_t> expected = {{"line or point", 1}, {"non-finite vertex", 1}};
     EXPECT_EQ(scene.skipped, expected);
@@ -62,7 +62,7 @@ TEST(LoadObj, MaterialFileGivesBaseColourAndStaysInItsFolder) {
     folder.write("secret.mtl", "newmtl red\nKd 0 0 1\n");
     folder.write("in/colors.mtl", "newmtl grey\nKd .5 .5 .5\nnewmtl red\nKd 1 0.25 0\n");
     Task task;
-    const std::string faces = kSquare + "usemtl red\nf 1 2 3\n";
+    const std::string faces = kObjSquare + "usemtl red\nf 1 2 3\n";
     const Scene good = load_file(folder.write("in/a.obj", "mtllib colors.mtl\n" + faces), task);
     EXPECT_EQ(good.mesh.base_color(0), Vec3(1.0f, 0.25f, 0.0f));
     EXPECT_TRUE(good.warnings.empty());
@@ -75,7 +75,7 @@ TEST(LoadObj, MaterialFileGivesBaseColourAndStaysInItsFolder) {
 }
 
 TEST(LoadObj, KnownByItsContentWithoutExtension) {
-    EXPECT_EQ(load_bytes("scene", "# no name\n" + kSquare + "f 1 2 3 4").mesh.triangle_count(), 2u);
+    EXPECT_EQ(load_bytes("scene", "# no name\n" + kObjSquare + "f 1 2 3 4").mesh.triangle_count(), 2u);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 const std::string kVertices = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
 const std::string kFaces = "property list uchar int vertex_indices\nend_header\n";
-const std::string kSquare = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+const std::string kPlySquare = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
 /// `value` as bytes, the most significant first.
 template <class T>
@@ -22,7 +22,7 @@ TEST(LoadPly, AsciiPolygonsAndUnknownElements) {
     const Scene scene = load_bytes(
         "a.ply", "ply\nformat ascii 1.0\nelement camera 1\nproperty list uchar float k\nproperty int n\n" +
                      kVertices + "element face 2\nproperty uchar red\n" + kFaces + "3 1.5 nan 2 7\n" +
-                     kSquare + "255 4 0 1 2 3\n0 3 2 3\n0");
+                     kPlySquare + "255 4 0 1 2 3\n0 3 2 3\n0");
     const std::vector<UVec3> expected = {{0, 1, 2}, {0, 2, 3}, {2, 3, 0}};
     EXPECT_EQ(scene.mesh.triangles, expected);
     EXPECT_EQ(scene.mesh.positions[2], Vec3(1, 1, 0));
@@ -46,7 +46,7 @@ TEST(LoadPly, StripsEndAtMinusOneAndKeepTheirFacing) {
     const Scene scene =
         load_bytes("a.ply", "ply\nformat ascii 1.0\n" + kVertices +
                                 "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
-                                kSquare + "9 0 1 3 2 -1 1 2 3 -1\n");
+                                kPlySquare + "9 0 1 3 2 -1 1 2 3 -1\n");
     const std::vector<UVec3> expected = {{0, 1, 3}, {1, 2, 3}, {1, 2, 3}};
     EXPECT_EQ(scene.mesh.triangles, expected);  // all counter-clockwise
 }
@@ -66,11 +66,11 @@ TEST(LoadPly, VerticesWithoutFacesArePoints) {
 TEST(LoadPly, ErrorsNameThePlace) {
     const std::string head = "ply\nformat ascii 1.0\n" + kVertices + "element face 1\n" + kFaces;
     EXPECT_EQ(refusal_of("a.ply", head + "0 0 0\n1 x 0\n"), "line 11: found \"x\", expected a number.");
-    EXPECT_EQ(refusal_of("a.ply", head + kSquare + "3 0 1 4\n"),
+    EXPECT_EQ(refusal_of("a.ply", head + kPlySquare + "3 0 1 4\n"),
               "line 14: vertex index 4 in row 0 of element face, expected 0 to 4 - 1.");
-    EXPECT_EQ(refusal_of("a.ply", head + kSquare + "3 0 1 0.5\n"),
+    EXPECT_EQ(refusal_of("a.ply", head + kPlySquare + "3 0 1 0.5\n"),
               "line 14: vertex index 0.5 in row 0 of element face, expected 0 to 4 - 1.");
-    EXPECT_EQ(refusal_of("a.ply", head + kSquare + "1e300 0 1 0.5\n"),
+    EXPECT_EQ(refusal_of("a.ply", head + kPlySquare + "1e300 0 1 0.5\n"),
               "line 14: a list of 1e+300 values goes past the end of the file.");
     EXPECT_EQ(refusal_of("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n"),
               "line 4: unknown type \"half\".");

@@ -43,11 +43,11 @@ PeerSettings quick(const Scene& scene) {
 
 TEST(Ratios, TheRatioIsThatOfTheMediansAndItsIntervalThatOfRoundsDrawnAgain) {
     const std::vector<double> ours{1.0, 3.0, 2.0}, twice{2.0, 6.0, 4.0}, other{5.0, 3.0, 4.0};
-    const Interval same = ratio_of_medians(twice, ours);  // in each round twice as long: no spread
+    const RatioInterval same = ratio_of_medians(twice, ours);  // in each round twice as long: no spread
     EXPECT_EQ(same.value, 2.0);
     EXPECT_EQ(same.lower, 2.0);
     EXPECT_EQ(same.upper, 2.0);
-    const Interval spread = ratio_of_medians(other, ours);
+    const RatioInterval spread = ratio_of_medians(other, ours);
     EXPECT_EQ(spread.value, 2.0);  // 4 / 2
     EXPECT_EQ(spread.lower, 1.0);  // the second round thrice: 3 / 3
     EXPECT_EQ(spread.upper, 5.0);  // the first round thrice: 5 / 1

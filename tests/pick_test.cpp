@@ -15,7 +15,7 @@ constexpr float kNoSurface = std::numeric_limits<float>::infinity();
 
 /// Seen by `front`: a root of 200 x 100 pixels, its upper left corner at (0, 50); a leaf in its left half; in
 /// its right half an inner node with two leaves of 50 x 100 pixels, of which the right one is empty.
-NodeList small_tree() {
+NodeList tree_to_pick() {
     const auto box = [](float left, float right) {
         return Box{Vec3(left, -1.0f, -1.0f), Vec3(right, 1.0f, 1.0f)};
     };
@@ -49,7 +49,7 @@ protected:
     using Nodes = std::vector<uint32_t>;
 
     ViewerState state_;
-    LevelTable levels_ = make_level_table(small_tree());
+    LevelTable levels_ = make_level_table(tree_to_pick());
 };
 
 TEST_F(Picking, ALineUnderThePointerComesFirstThenTheBoxesBehindIt) {
@@ -77,7 +77,7 @@ TEST_F(Picking, OnlyWhatTheStateShowsIsPicked) {
 
 TEST_F(Picking, TheSurfaceHidesWhatIsBehindIt) {
     levels_ = make_level_table([] {
-        NodeList list = small_tree();
+        NodeList list = tree_to_pick();
         list.nodes[3].bounds = {Vec3(0.2f, -0.5f, -1.0f), Vec3(0.8f, 0.5f, -0.5f)};  // 40 to 60 pixels right
         return list;
     }());
@@ -90,7 +90,7 @@ TEST_F(Picking, TheSurfaceHidesWhatIsBehindIt) {
 }
 
 TEST_F(Picking, AnOutlineIsPickedWhereItIsDrawn) {
-    NodeList list = small_tree();
+    NodeList list = tree_to_pick();
     list.outlines = {{3, Vec3(0.5f, -1.0f, 0.0f), Vec3(0.5f, 1.0f, 0.0f)}};
     levels_ = make_level_table(list);
     EXPECT_EQ(pick(front(125.0f, 100.0f)).front(), 3u);
@@ -118,7 +118,7 @@ TEST_F(Picking, PerspectiveLinesArePickedWhereTheyAreSeen) {
 }
 
 TEST(Marks, AHiddenNodeTakesWhatIsBelowAndTrianglesOfNoOtherLeaf) {
-    const NodeList list = small_tree();
+    const NodeList list = tree_to_pick();
     ViewerState state;
     EXPECT_TRUE(visible_parts(state.side(), list, 3).is_whole());
     state.side().hidden_nodes = {1};
@@ -134,7 +134,7 @@ TEST(Marks, AHiddenNodeTakesWhatIsBelowAndTrianglesOfNoOtherLeaf) {
 }
 
 TEST(Marks, AnIsolatedNodeIsShownWithWhatIsBelow) {
-    const NodeList list = small_tree();
+    const NodeList list = tree_to_pick();
     ViewerState state;
     state.side().isolated = 2;
     Visibility seen = visible_parts(state.side(), list, 3);
@@ -153,7 +153,7 @@ TEST(Marks, AnIsolatedNodeIsShownWithWhatIsBelow) {
 }
 
 TEST(Marks, TrianglesSplitByTheStageAndSharedByTheBuilderDiffer) {
-    const NodeList list = small_tree();
+    const NodeList list = tree_to_pick();
     const BoxValues values = make_box_values(list);
     EXPECT_EQ(values.prim_leaves, (std::vector<uint32_t>{1, 2, 1}));
     const PrimRef refs[] = {{Box{}, 0}, {Box{}, 1}, {Box{}, 2}, {Box{}, 2}};
@@ -166,7 +166,7 @@ TEST(Marks, TrianglesSplitByTheStageAndSharedByTheBuilderDiffer) {
 }
 
 TEST(NodeFacts, CountWhatIsBelowANode) {
-    const NodeList list = small_tree();
+    const NodeList list = tree_to_pick();
     const BoxValues values = make_box_values(list);
     const NodeFacts facts = node_facts(list, values, 2);
     EXPECT_EQ(facts.path, (std::vector<uint32_t>{0, 2}));

@@ -11,7 +11,7 @@
 namespace boxwood {
 namespace {
 
-std::string refusal(const std::string& text) {
+std::string refusal_of_rays(const std::string& text) {
     try {
         parse_rays(text, "rays.txt");
     } catch (const Error& error) {
@@ -40,18 +40,22 @@ TEST(RayFile, ReadsDecimalAndHexFloatsCommentsAndBlankLines) {
 }
 
 TEST(RayFile, NamesTheBadLineAndWhatWasExpected) {
-    EXPECT_EQ(refusal("a 0 0 0 0 0 1 0 1\nb 0 0 0 0 0 1 0\n"),
+    EXPECT_EQ(refusal_of_rays("a 0 0 0 0 0 1 0 1\nb 0 0 0 0 0 1 0\n"),
               "rays.txt, line 2: tmax is missing, expected: id ox oy oz dx dy dz tmin tmax");
-    EXPECT_EQ(refusal("#\n\nb 0 zero 0 0 0 1 0 1\n"), "rays.txt, line 3: oy is \"zero\", expected a number");
-    EXPECT_EQ(refusal("b 0 0 0 0 0 1 0 1 7"),
+    EXPECT_EQ(refusal_of_rays("#\n\nb 0 zero 0 0 0 1 0 1\n"),
+              "rays.txt, line 3: oy is \"zero\", expected a number");
+    EXPECT_EQ(refusal_of_rays("b 0 0 0 0 0 1 0 1 7"),
               "rays.txt, line 1: \"7\" is one word too many, expected: id ox oy oz dx dy dz tmin tmax");
-    EXPECT_EQ(refusal("b 1e400 0 0 0 0 1 0 1"), "rays.txt, line 1: ox is 1e400, which no float holds");
+    EXPECT_EQ(refusal_of_rays("b 1e400 0 0 0 0 1 0 1"),
+              "rays.txt, line 1: ox is 1e400, which no float holds");
 }
 
 TEST(RayFile, ATMinBelowZeroOrNotANumberIsRefused) {
     const char* expected = "expected 0 or more: a ray begins at its origin or behind it";
-    EXPECT_EQ(refusal("b 0 0 0 0 0 1 -1 1"), std::string("rays.txt, line 1: tmin is -1, ") + expected);
-    EXPECT_EQ(refusal("b 0 0 0 0 0 1 nan 1"), std::string("rays.txt, line 1: tmin is nan, ") + expected);
+    EXPECT_EQ(refusal_of_rays("b 0 0 0 0 0 1 -1 1"),
+              std::string("rays.txt, line 1: tmin is -1, ") + expected);
+    EXPECT_EQ(refusal_of_rays("b 0 0 0 0 0 1 nan 1"),
+              std::string("rays.txt, line 1: tmin is nan, ") + expected);
 }
 
 TEST(RayFile, ARayLineReadsBackBitForBit) {

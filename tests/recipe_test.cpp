@@ -69,7 +69,7 @@ void expect_round_trips(const Catalog& catalog) {
     }
 }
 
-std::string refusal(const std::string& text, const Catalog& catalog = kTestCatalog) {
+std::string refusal_of_recipe(const std::string& text, const Catalog& catalog = kTestCatalog) {
     try {
         parse_recipe(text, catalog);
     } catch (const Error& error) {
@@ -120,48 +120,52 @@ TEST(Recipe, CopiesOfAStageAreIndependent) {
 }
 
 TEST(Recipe, AnUnknownWordIsRefusedWithTheNearestValidOne) {
-    EXPECT_EQ(refusal("bvh-bined-sah"),
+    EXPECT_EQ(refusal_of_recipe("bvh-bined-sah"),
               "recipe: there is no stage \"bvh-bined-sah\"; did you mean bvh-binned-sah?");
-    EXPECT_EQ(refusal("bvh-binned-sah(bin=8)"),
+    EXPECT_EQ(refusal_of_recipe("bvh-binned-sah(bin=8)"),
               "recipe: bvh-binned-sah has no parameter \"bin\"; did you mean bins?");
-    EXPECT_EQ(refusal("none(t=1)"), "recipe: none has no parameter \"t\": it has none");
-    EXPECT_EQ(refusal("copies(order=fil) > none"),
+    EXPECT_EQ(refusal_of_recipe("none(t=1)"), "recipe: none has no parameter \"t\": it has none");
+    EXPECT_EQ(refusal_of_recipe("copies(order=fil) > none"),
               "recipe: order of copies is \"fil\", expected file, morton or random; did you mean file?");
 }
 
 TEST(Recipe, AValueOutsideItsRangeIsRefusedWithTheRange) {
-    EXPECT_EQ(refusal("bvh-binned-sah(bins=257)"),
+    EXPECT_EQ(refusal_of_recipe("bvh-binned-sah(bins=257)"),
               "recipe: bins of bvh-binned-sah is \"257\", expected a whole number from 2 to 256");
     for (const char* text :
          {"bvh-binned-sah(bins=8.5)", "bvh-binned-sah(bins=)", "bvh-binned-sah(bins=99999999999)",
           "bvh-binned-sah(traversal-cost=nan)", "bvh-binned-sah(traversal-cost=1x)",
           "copies(weight=2.001) > none", "copies(s=-1) > none", "copies(s=41) > none", "copies(sa=0) > none",
           "copies(sa=inf) > none", "copies(sa=nan) > none", "copies(clip=maybe) > none"})
-        EXPECT_NE(refusal(text).find("expected"), std::string::npos) << text << ": " << refusal(text);
+        EXPECT_NE(refusal_of_recipe(text).find("expected"), std::string::npos)
+            << text << ": " << refusal_of_recipe(text);
 }
 
 TEST(Recipe, WhatIsGivenTwiceIsRefused) {
-    EXPECT_EQ(refusal("copies(s=1, sa=2) > none"),
+    EXPECT_EQ(refusal_of_recipe("copies(s=1, sa=2) > none"),
               "recipe: s and sa of copies say the same thing: give one of them");
-    EXPECT_EQ(refusal("bvh-binned-sah(bins=8, bins=9)"), "recipe: bins of bvh-binned-sah is given twice");
+    EXPECT_EQ(refusal_of_recipe("bvh-binned-sah(bins=8, bins=9)"),
+              "recipe: bins of bvh-binned-sah is given twice");
 }
 
 TEST(Recipe, StagesThatDoNotFitAreRefused) {
-    EXPECT_EQ(refusal("none > same"), "recipe: same needs a binary BVH, none makes a list");
-    EXPECT_EQ(refusal("same > bvh-binned-sah"),
+    EXPECT_EQ(refusal_of_recipe("none > same"), "recipe: same needs a binary BVH, none makes a list");
+    EXPECT_EQ(refusal_of_recipe("same > bvh-binned-sah"),
               "recipe: same needs a binary BVH, but no builder comes before it");
-    EXPECT_EQ(refusal("none > bvh-binned-sah"),
+    EXPECT_EQ(refusal_of_recipe("none > bvh-binned-sah"),
               "recipe: bvh-binned-sah after none: a recipe has one builder");
-    EXPECT_EQ(refusal("copies > whole > none"), "recipe: whole after copies: one stage makes the references");
-    EXPECT_EQ(refusal("none > copies"), "recipe: copies makes references and belongs before none");
-    EXPECT_NE(refusal("copies").find("has no builder"), std::string::npos);
+    EXPECT_EQ(refusal_of_recipe("copies > whole > none"),
+              "recipe: whole after copies: one stage makes the references");
+    EXPECT_EQ(refusal_of_recipe("none > copies"), "recipe: copies makes references and belongs before none");
+    EXPECT_NE(refusal_of_recipe("copies").find("has no builder"), std::string::npos);
 }
 
 TEST(Recipe, TextThatIsNoRecipeIsRefused) {
     for (const char* text :
          {"", " ", ">", "none >", "> none", "none(", "none)", "none()x", "none(())", "none(x)", "(bins=2)",
           "bvh-binned-sah(bins=2", "bvh-binned-sah(bins=2,)", "none\xff"})
-        EXPECT_TRUE(refusal(text).starts_with("recipe: ")) << text << ": " << refusal(text);
+        EXPECT_TRUE(refusal_of_recipe(text).starts_with("recipe: "))
+            << text << ": " << refusal_of_recipe(text);
 }
 
 TEST(Catalog, IdsAreLowerCaseWithHyphensAndStandOnce) {

@@ -10,16 +10,11 @@
 #include "core/refs/edge_volume.h"
 #include "core/scene/scene.h"
 #include "oracle/polygon.h"
+#include "support/random_mesh.h"
 #include "support/triangle_soup.h"
 
 namespace boxwood {
 namespace {
-
-std::vector<PrimRef> whole_refs(const Mesh& mesh) {
-    std::vector<PrimRef> refs;
-    for (uint32_t i = 0; i < mesh.triangle_count(); ++i) refs.push_back({mesh.triangle(i).bounds(), i});
-    return refs;
-}
 
 Bvh2 build(const Mesh& mesh, const SpatialSplits& method = {}) {
     Task task;

@@ -11,7 +11,7 @@
 namespace boxwood::bench {
 namespace {
 
-StructureSettings quick(const Scene& scene) {
+StructureSettings short_run(const Scene& scene) {
     StructureSettings settings;
     settings.camera = scene.camera.value_or(fit_camera(scene.mesh.bounds()));
     settings.ray_count = 100;
@@ -28,7 +28,7 @@ std::shared_ptr<const Scene> cornell() {
 TEST(MeasureStructures, TakesEveryBuilderOfTheCatalogAndTransformsOfOneFrame) {
     const auto scene = cornell();
     Task task;
-    const std::vector<MeasuredStructure> rows = measure_structures(scene, quick(*scene), task);
+    const std::vector<MeasuredStructure> rows = measure_structures(scene, short_run(*scene), task);
     ASSERT_GE(rows.size(), builder_catalog().size());
     for (size_t i = 0; i < builder_catalog().size(); ++i) EXPECT_EQ(rows[i].recipe, builder_catalog()[i].id);
     for (const MeasuredStructure& row : rows) {
@@ -46,7 +46,7 @@ TEST(MeasureStructures, TakesEveryBuilderOfTheCatalogAndTransformsOfOneFrame) {
 TEST(MeasureStructures, ABuildThatTakesTooLongIsGivenUp) {
     Task task;
     const auto scene = open_scene("terrain@tris=400k", task);
-    StructureSettings settings = quick(*scene);
+    StructureSettings settings = short_run(*scene);
     settings.recipes = {parse_recipe("bvh-sweep-sah"), parse_recipe("none")};
     settings.patience = 0.01;
     settings.builds = 1;

@@ -11,18 +11,6 @@
 namespace boxwood {
 namespace {
 
-Box random_box(Rng& rng, float lower, float upper) {
-    Box box;
-    box.extend(random_point(rng, lower, upper));
-    box.extend(random_point(rng, lower, upper));
-    return box;
-}
-
-Triangle random_triangle(Rng& rng, float lower, float upper) {
-    const Vec3 a = random_point(rng, lower, upper), b = random_point(rng, lower, upper);
-    return {a, b, random_point(rng, lower, upper)};
-}
-
 /// A whole number of -2 to 2 on each axis: corners on planes, edges in faces, through edges and corners.
 Vec3 lattice_point(Rng& rng) {
     Vec3 p;

@@ -22,11 +22,6 @@ std::optional<Number> number_from(std::string_view text) {
     return value;
 }
 
-std::string shortest(double value) {
-    char text[64];
-    return {text, std::to_chars(text, text + sizeof(text), value).ptr};
-}
-
 std::string one_of(std::span<const char* const> names) {
     std::string text;
     for (const char* name : names) text += (text.empty() ? "" : "|") + std::string(name);
@@ -58,6 +53,11 @@ std::optional<PixelSize> size_from(std::string_view text) {
 }
 
 }  // namespace
+
+std::string shortest(double value) {
+    char text[64];
+    return {text, std::to_chars(text, text + sizeof(text), value).ptr};
+}
 
 struct Options::Impl {
     Impl(const std::string& command, const std::string& description)

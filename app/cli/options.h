@@ -16,6 +16,9 @@ struct PixelSize {
     int height = 720;
 };
 
+/// The number in the shortest form that reads back as the same.
+std::string shortest(double value);
+
 /// The options of one command: each is bound to a variable that keeps its value where the option is not
 /// given. Names as CLI11 takes them: "-o,--output". Lives as long as the variables.
 class Options {

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "app/cli/camera_options.h"
+#include "app/cli/options.h"
 #include "app/cli/progress.h"
 #include "app/command/commands.h"
 #include "app/command/shared.h"
@@ -26,11 +26,6 @@ std::vector<Recipe> compared_recipes() {
             if (builder.exact && std::string(builder.id) != "none")
                 recipes.push_back(parse_recipe(references + std::string(builder.id)));
     return recipes;
-}
-
-std::string shortest(double value) {
-    char text[64];
-    return {text, std::to_chars(text, text + sizeof(text), value).ptr};
 }
 
 /// One scene of a series: its spec, and what the plots put on their axis.

@@ -9,7 +9,7 @@
 namespace boxwood {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kMeasuresFooter =
     "Measures of a tree, in triangle tests where not said otherwise:\n"
     "  sah_cost      expected cost of a random ray that meets the scene's box\n"
     "  epo           end-point overlap: cost of nodes around a random point of the surface that its\n"
@@ -43,7 +43,7 @@ ExitCode run_bench_measures(Arguments arguments) {
     initial.rates.round_ms = 12.0;
     shared.add_to(options, "scene; may be given several times (default: atrium, spaceship and kitchen)",
                   initial, "every builder, and references and transforms on common ones");
-    options.footer(kFooter + recipe_help());
+    options.footer(kMeasuresFooter + recipe_help());
     if (!options.parse(arguments)) return ExitCode::Done;
     check_json_file(shared.json());
     shared.recipes();  // all are checked before one is built

@@ -13,7 +13,7 @@ namespace {
 
 using bench::PeerRow;
 
-constexpr const char* kFooter =
+constexpr const char* kPeersFooter =
     "Rays: through the pixel centres; one cosine-distributed bounce from each hit; a shadow ray from each\n"
     "hit that faces the light, to a point light up and to the right of the eye, half way to what stands\n"
     "there, at most half the scene's diagonal far. One after the other in that order, t and primitive (or\n"
@@ -26,7 +26,7 @@ constexpr const char* kFooter =
     "Exits 1 if exact mode has a wrong answer, or if answers changed between rounds. bench/plots.py draws\n"
     "the JSON.\n\n";
 
-void print_tables(const std::vector<PeerRow>& rows, Report& report, const std::string& json) {
+void print_peer_tables(const std::vector<PeerRow>& rows, Report& report, const std::string& json) {
     std::vector<ReportRow> shown, summary;
     for (const PeerRow& row : rows) {
         report.rows.push_back(report_row(row));
@@ -74,7 +74,7 @@ ExitCode run_bench_peers(Arguments arguments) {
     options.flag("--exact-only", exact_only, "leave out fast mode");
     camera_options.add_to(options);
     options.text("--json", "FILE", json, "write the rows as JSON (- for standard output)");
-    options.footer(kFooter + recipe_help());
+    options.footer(kPeersFooter + recipe_help());
     if (!options.parse(arguments)) return ExitCode::Done;
     settings.recipes = texts.empty() ? bench::quality_recipes() : parse_recipes(texts);
     settings.threads = peer_options.threads();
@@ -96,7 +96,7 @@ ExitCode run_bench_peers(Arguments arguments) {
         const Progress progress(scene->title + ": peers", task);
         for (PeerRow& row : bench::run_peers(scene, settings, task)) rows.push_back(std::move(row));
     });
-    if (!rows.empty()) print_tables(rows, report, json);
+    if (!rows.empty()) print_peer_tables(rows, report, json);
     return std::ranges::all_of(rows, &PeerRow::holds) ? result : ExitCode::CheckFailed;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kSizes[] = {"100k", "200k", "500k", "1M", "2M", "5M", "10M"};
 
-constexpr const char* kFooter =
+constexpr const char* kScaleFooter =
     "Rays, clocks and rounds are those of `bench peers`, exact mode. mrays_by_log2: millions of rays per\n"
     "second times log2 of the number of triangles. The second table: build_factor and bytes_factor,\n"
     "largest over least of what a triangle takes; rate_fall, most by which a size's mrays_by_log2 lies\n"
@@ -34,7 +34,7 @@ std::vector<std::string> sizes_up_to(const std::string& most, const std::vector<
     return kept;
 }
 
-void print_tables(const std::vector<bench::PeerRow>& rows, Report& report, const std::string& json) {
+void print_scale_tables(const std::vector<bench::PeerRow>& rows, Report& report, const std::string& json) {
     std::vector<ReportRow> shown, summary;
     for (const bench::PeerRow& row : rows) {
         report.rows.push_back(bench::scale_row(row));
@@ -76,7 +76,7 @@ ExitCode run_bench_scale(Arguments arguments) {
                  "time for the rounds of each kind of rays, at least (default: 1)");
     options.integer("--builds", settings.builds, 1, 1000, "builds of each structure (default: 3)");
     options.text("--json", "FILE", json, "write the rows as JSON (- for standard output)");
-    options.footer(kFooter + recipe_help());
+    options.footer(kScaleFooter + recipe_help());
     if (!options.parse(arguments)) return ExitCode::Done;
     settings.recipes = texts.empty() ? bench::quality_recipes() : parse_recipes(texts);
     settings.threads = peer_options.threads();
@@ -97,7 +97,7 @@ ExitCode run_bench_scale(Arguments arguments) {
         const Progress progress(scene->title + ": scale", task);
         for (bench::PeerRow& row : bench::run_peers(scene, settings, task)) rows.push_back(std::move(row));
     }
-    print_tables(rows, report, json);
+    print_scale_tables(rows, report, json);
     return ExitCode::Done;
 }
 

@@ -6,7 +6,7 @@
 namespace boxwood {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kTreesFooter =
     "A promise is VALUE: RECIPE <= [FACTOR *] RECIPE, for example\n"
     "\"sah_cost: bvh-sweep-sah <= 1.1 * bvh-binned-sah\". Values: sah_cost, in triangle tests; wide_cost, "
     "of\n"
@@ -24,7 +24,7 @@ ExitCode run_bench_trees(Arguments arguments) {
     options.texts("-p,--promise", "PROMISE", texts,
                   "may be given several times (default: those of the catalog's methods)");
     options.text("--json", "FILE", json, "write the rows as JSON (- for standard output)");
-    options.footer(kFooter + recipe_help());
+    options.footer(kTreesFooter + recipe_help());
     if (!options.parse(arguments)) return ExitCode::Done;
     if (scenes.empty()) scenes = {"atrium", "spaceship", "kitchen"};
     if (texts.empty()) texts.assign(bench::catalog_promises().begin(), bench::catalog_promises().end());

@@ -7,11 +7,11 @@
 namespace boxwood {
 namespace {
 
-constexpr uint32_t kChunkSize = 1u << 21;  // 72 MiB of boxes: drivers allow buffers of 128 MiB in a shader
+constexpr uint32_t kChunkBoxes = 1u << 21;  // 72 MiB of boxes: drivers allow buffers of 128 MiB in a shader
 constexpr uint32_t kChunkSegments = 5u << 20;  // 120 MiB
 constexpr uint32_t kCullLanes = 64;
 constexpr uint32_t kBoxesPerGroup = 256 * 16;  // see select_boxes.comp
-static_assert(kChunkSize % kBoxesPerGroup == 0);
+static_assert(kChunkBoxes % kBoxesPerGroup == 0);
 
 constexpr uint32_t kThresholdStep = 0, kCountStep = 1, kCopyStep = 2;
 
@@ -62,10 +62,10 @@ void BoxLayer::upload(uint32_t count, const std::function<void(uint32_t first, s
     clear();
     count_ = count;
     has_outlines_ = !outlines.begin.empty();
-    std::vector<BoxInstance> staging(std::min(count, kChunkSize));
+    std::vector<BoxInstance> staging(std::min(count, kChunkBoxes));
     for (uint32_t first = 0; first < count;) {
         uint32_t end = first, segments = 0;
-        while (end < count && end - first < kChunkSize && (segments < kChunkSegments)) {
+        while (end < count && end - first < kChunkBoxes && (segments < kChunkSegments)) {
             const uint32_t group_end = std::min(end + kBoxesPerGroup, count);
             if (has_outlines_) segments += outlines.begin[group_end] - outlines.begin[end];
             end = group_end;

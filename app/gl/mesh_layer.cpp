@@ -9,7 +9,7 @@
 namespace boxwood {
 namespace {
 
-constexpr uint32_t kChunkSize = 1u << 22;  // triangles
+constexpr uint32_t kChunkTriangles = 1u << 22;  // triangles
 
 struct TriangleData {
     uint32_t color;   ///< sRGB bytes, red lowest
@@ -63,10 +63,10 @@ void MeshLayer::upload(const Mesh& mesh, const UnitSpace& space) {
     std::vector<uint32_t> colors;
     for (const MeshObject& object : mesh.objects) colors.push_back(pack_color(object.base_color));
     const auto triangle_count = static_cast<uint32_t>(mesh.triangle_count());
-    for (uint32_t first = 0; first < triangle_count; first += kChunkSize) {
+    for (uint32_t first = 0; first < triangle_count; first += kChunkTriangles) {
         Chunk chunk;
         chunk.first = first;
-        chunk.count = std::min(triangle_count - first, kChunkSize);
+        chunk.count = std::min(triangle_count - first, kChunkTriangles);
         std::vector<Vec3> corners(size_t{3} * chunk.count);
         std::vector<TriangleData> triangles(chunk.count);
         parallel_for(chunk.count, 4096, [&](size_t begin, size_t end) {

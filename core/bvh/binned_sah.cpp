@@ -7,8 +7,8 @@ namespace boxwood {
 
 namespace {
 
-constexpr uint32_t kPartSize = 4096;  ///< references of a subtree that one thread builds, at most
-constexpr size_t kGrain = 1 << 14;    ///< of larger nodes: references that one thread reads at once
+constexpr uint32_t kPartSize = 4096;   ///< references of a subtree that one thread builds, at most
+constexpr size_t kRefGrain = 1 << 14;  ///< of larger nodes: references that one thread reads at once
 
 Box4 half_centers_of(std::span<const BinRef> refs) {
     Box4 box = empty_box4();
@@ -73,10 +73,10 @@ public:
     BinnedBuild(const BinnedSah& params, std::span<const PrimRef> refs, const Task& task)
         : params_(params), task_(task), prims_(refs.size()), nodes_(2 * refs.size()) {
         for (Array<BinRef>& array : arrays_) array.resize(refs.size());
-        std::vector<Box4> boxes((refs.size() + kGrain - 1) / kGrain);
-        parallel_for(refs.size(), kGrain, [&](size_t begin, size_t end) {
+        std::vector<Box4> boxes((refs.size() + kRefGrain - 1) / kRefGrain);
+        parallel_for(refs.size(), kRefGrain, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) arrays_[0][i] = BinRef::of(refs[i]);
-            boxes[begin / kGrain] = box_of(std::span(arrays_[0]).subspan(begin, end - begin));
+            boxes[begin / kRefGrain] = box_of(std::span(arrays_[0]).subspan(begin, end - begin));
         });
         top_.push_back({{0, static_cast<uint32_t>(refs.size())}, 0});
         states_.push_back({merged(boxes), 0});
@@ -137,10 +137,10 @@ private:
     Division divide_large(RefRange range, uint32_t depth, const State& state) {
         const std::span<const BinRef> refs = refs_of(range, state.array);
         if (must_halve(depth, range.count())) return halve(refs);
-        const size_t block_count = (refs.size() + kGrain - 1) / kGrain;
+        const size_t block_count = (refs.size() + kRefGrain - 1) / kRefGrain;
         const auto for_each_block = [&](const auto& body) {
-            parallel_for(refs.size(), kGrain, [&](size_t begin, size_t end) {
-                body(begin / kGrain, refs.subspan(begin, end - begin));
+            parallel_for(refs.size(), kRefGrain, [&](size_t begin, size_t end) {
+                body(begin / kRefGrain, refs.subspan(begin, end - begin));
             });
         };
         std::vector<Box4> centers(block_count);
@@ -158,7 +158,7 @@ private:
             lefts[i] = lefts[i - 1] + blocks[i - 1].count_of(at.axis, at.bin);
         BinRef* const to = refs_of(range, 1 - state.array).data();
         for_each_block([&](size_t block, auto some) {
-            const size_t rights = block * kGrain - lefts[block];
+            const size_t rights = block * kRefGrain - lefts[block];
             partition(some, binning, at, to + lefts[block], to + at.left_count + rights);
         });
         return at;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kAxisBits = 21, kLeadingAxisBits = 10;
 constexpr int kCodeBits = 3 * kAxisBits, kLeadingBits = 3 * kLeadingAxisBits;
-constexpr size_t kGrain = 1 << 14;
+constexpr size_t kCodeGrain = 1 << 14;
 
 /// Bit i of each of ten bits to bit 3 i, three axes at once.
 Int4 spread(Int4 v) {
@@ -30,14 +30,14 @@ uint64_t spread(uint64_t v) {
 }
 
 Box half_centers_of(std::span<const PrimRef> refs) {
-    std::vector<Box> boxes((refs.size() + kGrain - 1) / kGrain);
-    parallel_for(refs.size(), kGrain, [&](size_t begin, size_t end) {
+    std::vector<Box> boxes((refs.size() + kCodeGrain - 1) / kCodeGrain);
+    parallel_for(refs.size(), kCodeGrain, [&](size_t begin, size_t end) {
         Box4 box = empty_box4();
         for (const PrimRef& ref : refs.subspan(begin, end - begin)) {
             const Float4 center = half_center4(load_lower(ref), load_upper(ref));
             box.extend(center, center);
         }
-        boxes[begin / kGrain] = box.box();
+        boxes[begin / kCodeGrain] = box.box();
     });
     Box all;
     for (const Box& box : boxes) all.extend(box);
@@ -57,7 +57,7 @@ void refine(Run run, std::span<const PrimRef> refs, const MortonGrid& grid, Mort
     };
     const size_t count = run.end - run.begin;
     Array<Item> items(count), spare(count);
-    parallel_for(count, kGrain, [&](size_t begin, size_t end) {
+    parallel_for(count, kCodeGrain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const uint64_t key = order.keys[run.begin + i];
             items[i] = {grid.code(refs[static_cast<uint32_t>(key)]), key};
@@ -72,7 +72,7 @@ void refine(Run run, std::span<const PrimRef> refs, const MortonGrid& grid, Mort
         sorted = radix_sort(std::span(items), std::span(spare), 0, kCodeBits - kLeadingBits,
                             [](const Item& item) { return item.code; });
     }
-    parallel_for(count, kGrain, [&](size_t begin, size_t end) {
+    parallel_for(count, kCodeGrain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             order.keys[run.begin + i] = sorted[i].key;
             if (i + 1 == count) break;
@@ -86,8 +86,8 @@ void refine(Run run, std::span<const PrimRef> refs, const MortonGrid& grid, Mort
 std::vector<Run> find_levels(MortonOrder& order, uint32_t run_limit) {
     const size_t count = order.keys.size();
     order.levels.resize(count - 1);
-    std::vector<std::vector<Run>> runs((count + kGrain - 1) / kGrain);
-    parallel_for(count - 1, kGrain, [&](size_t begin, size_t end) {
+    std::vector<std::vector<Run>> runs((count + kCodeGrain - 1) / kCodeGrain);
+    parallel_for(count - 1, kCodeGrain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const uint32_t difference = order.leading_code(i) ^ order.leading_code(i + 1);
             order.levels[i] = difference == 0 ? MortonOrder::kEqual
@@ -95,7 +95,7 @@ std::vector<Run> find_levels(MortonOrder& order, uint32_t run_limit) {
             if (difference != 0 || (i > 0 && order.leading_code(i - 1) == order.leading_code(i))) continue;
             size_t run_end = i + 2;
             while (run_end < count && order.leading_code(run_end) == order.leading_code(i)) ++run_end;
-            if (run_end - i > run_limit) runs[begin / kGrain].push_back({i, run_end});
+            if (run_end - i > run_limit) runs[begin / kCodeGrain].push_back({i, run_end});
         }
     });
     std::vector<Run> all;
@@ -147,7 +147,7 @@ MortonOrder morton_order(std::span<const PrimRef> refs, uint32_t run_limit, cons
     if (refs.empty()) return order;
     const MortonGrid grid(half_centers_of(refs));
     order.keys.resize(refs.size());
-    parallel_for(refs.size(), kGrain, [&](size_t begin, size_t end) {
+    parallel_for(refs.size(), kCodeGrain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) order.keys[i] = uint64_t{grid.leading_code(refs[i])} << 32 | i;
     });
     if (task.stopped()) return order;

@@ -9,7 +9,7 @@ namespace boxwood {
 
 namespace {
 
-constexpr size_t kBlock = 256;  ///< searches that one thread does at a time
+constexpr size_t kSearchBlock = 256;  ///< searches that one thread does at a time
 
 /// Sum of the half areas of inner nodes: all of the SAH cost that moves change.
 double inner_area(const Bvh2& bvh) {
@@ -44,7 +44,7 @@ std::vector<uint32_t> promising_nodes(const LinkedTree& tree, uint32_t node_coun
 std::vector<LinkedTree::Move> find_moves(const LinkedTree& tree, const std::vector<uint32_t>& nodes,
                                          Task& task) {
     std::vector<std::optional<LinkedTree::Move>> found(nodes.size());
-    parallel_for(nodes.size(), kBlock, [&](size_t begin, size_t end) {
+    parallel_for(nodes.size(), kSearchBlock, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end && !task.stopped(); ++i) found[i] = tree.best_move(nodes[i]);
         task.done += end - begin;
     });

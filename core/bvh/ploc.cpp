@@ -9,14 +9,14 @@ namespace boxwood {
 
 namespace {
 
-constexpr size_t kGrain = 2048;        ///< clusters that one thread looks at
-constexpr uint32_t kPartNodes = 4096;  ///< of a subtree that one thread writes, at most
-constexpr size_t kFewMerges = 16;      ///< a round should merge one cluster of so many
+constexpr size_t kClusterGrain = 2048;  ///< clusters that one thread looks at
+constexpr uint32_t kPartNodes = 4096;   ///< of a subtree that one thread writes, at most
+constexpr size_t kFewMerges = 16;       ///< a round should merge one cluster of so many
 constexpr uint32_t kLanes = 4;
 
 /// What is known of the subtree under a cluster. Ids below the number of references are these, along the
 /// curve; the others are inner nodes.
-struct Subtree {
+struct ClusterTree {
     uint32_t id;
     uint32_t ref_count;
     uint32_t node_count;  ///< of the finished tree; 1: it is a leaf
@@ -67,7 +67,7 @@ private:
     Array<float> corners_[6];
 
 public:
-    Array<Subtree> subtrees;
+    Array<ClusterTree> subtrees;
 };
 
 Float4 load(const float* from) {
@@ -146,7 +146,7 @@ private:
         Clusters clusters(refs_.size(), padding());
         clusters.resize(refs_.size());
         const float scale = unit_scale(box_of_all());
-        parallel_for(refs_.size(), kGrain, [&](size_t begin, size_t end) {
+        parallel_for(refs_.size(), kClusterGrain, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) {
                 const PrimRef& ref = refs_[order_.ref(i)];
                 const Box4 box{splat(scale) * load_lower(ref), splat(scale) * load_upper(ref)};
@@ -178,7 +178,8 @@ private:
     };
 
     void merge_round(const Clusters& from, Clusters& to) {
-        parallel_for(from.size(), kGrain, [&](size_t begin, size_t end) { find_nearest(from, begin, end); });
+        parallel_for(from.size(), kClusterGrain,
+                     [&](size_t begin, size_t end) { find_nearest(from, begin, end); });
         // The depth bound D. Before each round of m clusters every height is at most D - ceil(log2 m): at
         // first 0 is, D being no less than ceil(log2 n). A merge must keep within that, and the bound only
         // rises as clusters become fewer. A round that pairs all neighbours adds 1 to the heights and takes 1
@@ -190,8 +191,8 @@ private:
             places = count(from);
         }
         to.resize(places.back().kept);
-        parallel_for(from.size(), kGrain, [&](size_t begin, size_t end) {
-            merge_block(from, to, begin, end, places[begin / kGrain]);
+        parallel_for(from.size(), kClusterGrain, [&](size_t begin, size_t end) {
+            merge_block(from, to, begin, end, places[begin / kClusterGrain]);
         });
         merge_count_ += places.back().merged;
     }
@@ -224,15 +225,15 @@ private:
 
     /// Where each block begins to write, and last the sums.
     std::vector<Counts> count(const Clusters& clusters) const {
-        std::vector<Counts> blocks((clusters.size() + kGrain - 1) / kGrain + 1);
-        parallel_for(clusters.size(), kGrain, [&](size_t begin, size_t end) {
+        std::vector<Counts> blocks((clusters.size() + kClusterGrain - 1) / kClusterGrain + 1);
+        parallel_for(clusters.size(), kClusterGrain, [&](size_t begin, size_t end) {
             Counts counts;
             for (size_t i = begin; i < end; ++i) {
                 const bool merges_here = merges(clusters, i), is_left = nearest_[i] > static_cast<int32_t>(i);
                 counts.kept += !merges_here || is_left;
                 counts.merged += merges_here && is_left;
             }
-            blocks[begin / kGrain] = counts;
+            blocks[begin / kClusterGrain] = counts;
         });
         Counts sum;
         for (Counts& block : blocks) {
@@ -262,12 +263,12 @@ private:
     }
 
     /// Leaves as the paper's section 3.4 makes them: a subtree becomes one where that costs no more.
-    Subtree merge(const Subtree& left, const Subtree& right, float area, uint32_t merge) {
-        Subtree result{.id = static_cast<uint32_t>(refs_.size()) + merge,
-                       .ref_count = left.ref_count + right.ref_count,
-                       .node_count = 1 + left.node_count + right.node_count,
-                       .height = 1 + std::max(left.height, right.height),
-                       .cost = params_.traversal_cost * area + left.cost + right.cost};
+    ClusterTree merge(const ClusterTree& left, const ClusterTree& right, float area, uint32_t merge) {
+        ClusterTree result{.id = static_cast<uint32_t>(refs_.size()) + merge,
+                           .ref_count = left.ref_count + right.ref_count,
+                           .node_count = 1 + left.node_count + right.node_count,
+                           .height = 1 + std::max(left.height, right.height),
+                           .cost = params_.traversal_cost * area + left.cost + right.cost};
         const float as_leaf =
             static_cast<float>(kIntersectionCost) * static_cast<float>(result.ref_count) * area;
         if (result.ref_count <= static_cast<uint32_t>(params_.max_leaf_size) && as_leaf <= result.cost) {
@@ -282,7 +283,7 @@ private:
     uint32_t node_count(uint32_t id) const { return id < refs_.size() ? 1 : merge_of(id).node_count; }
     const Merge& merge_of(uint32_t id) const { return merges_[id - refs_.size()]; }
 
-    Bvh2 make_tree(const Subtree& root) {
+    Bvh2 make_tree(const ClusterTree& root) {
         std::vector<TopNode> top{{{0, root.ref_count}, 0}};
         std::vector<uint32_t> ids{root.id};
         for (size_t i = 0; i < top.size(); ++i) {

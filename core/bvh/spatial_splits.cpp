@@ -12,7 +12,7 @@ namespace boxwood {
 
 namespace {
 
-constexpr uint32_t kBlock = 1u << 14;  ///< references that one thread takes at a time
+constexpr uint32_t kRefBlock = 1u << 14;  ///< references that one thread takes at a time
 
 /// A node of the upper part of the tree: two branches, or a finished subtree.
 struct Branch {
@@ -68,10 +68,10 @@ private:
     /// body(begin, end, local) for blocks of the range, in parallel; then merge(local) in their order.
     template <class Body, class Merge>
     void for_blocks(uint32_t count, const Body& body, const Merge& merge) {
-        const size_t block_count = (count + kBlock - 1) / kBlock;
+        const size_t block_count = (count + kRefBlock - 1) / kRefBlock;
         std::vector<SetBounds> locals(block_count);
-        parallel_for(count, kBlock, [&](size_t begin, size_t end) {
-            body(static_cast<uint32_t>(begin), static_cast<uint32_t>(end), locals[begin / kBlock]);
+        parallel_for(count, kRefBlock, [&](size_t begin, size_t end) {
+            body(static_cast<uint32_t>(begin), static_cast<uint32_t>(end), locals[begin / kRefBlock]);
         });
         for (const SetBounds& local : locals) merge(local);
     }

@@ -9,7 +9,7 @@ namespace boxwood {
 
 namespace {
 
-constexpr size_t kSerialCount = 4096;  ///< smaller nodes are built by one thread
+constexpr size_t kSerialPieces = 4096;  ///< smaller nodes are built by one thread
 
 /// A node before its plane is chosen.
 struct Work {
@@ -36,7 +36,7 @@ public:
         const std::optional<KdSplit> split = choose(work);
         Work left, right;
         if (!split || !divide(work, *split, left, right)) return output.add_leaf(work.pieces);
-        const bool is_large = work.pieces.size() > kSerialCount;
+        const bool is_large = work.pieces.size() > kSerialPieces;
         work = {};  // so that pieces and events of one node on each path are kept alone
         const uint32_t inner = output.add_inner(*split);
         if (is_large) {
@@ -72,7 +72,7 @@ private:
     /// In parallel where the node is large.
     template <class Body>
     static void for_each_axis(const Work& work, const Body& body) {
-        const size_t grain = work.pieces.size() > kSerialCount ? 1 : 3;
+        const size_t grain = work.pieces.size() > kSerialPieces ? 1 : 3;
         const auto on_range = [&](size_t begin, size_t end) {
             for (size_t axis = begin; axis < end; ++axis) body(axis);
         };

@@ -10,8 +10,8 @@ namespace boxwood {
 
 namespace {
 
-constexpr size_t kGrain = 1024;         // triangles of one parallel range
-constexpr size_t kPiecesPerLook = 256;  // pieces between two looks at the stop request and the budget
+constexpr size_t kTriangleGrain = 1024;  // triangles of one parallel range
+constexpr size_t kPiecesPerLook = 256;   // pieces between two looks at the stop request and the budget
 
 /// References of each triangle under one limit.
 struct Counts {
@@ -29,7 +29,7 @@ public:
         Counts counts;
         counts.pieces.assign(mesh_.triangle_count(), 1);
         std::atomic<size_t> tight_count{0}, total{mesh_.triangle_count()};
-        parallel_for(mesh_.triangle_count(), kGrain, [&](size_t begin, size_t end) {
+        parallel_for(mesh_.triangle_count(), kTriangleGrain, [&](size_t begin, size_t end) {
             size_t tight = 0;
             for (size_t i = begin; i < end && !task_.stopped(); ++i) {
                 const Triangle triangle = mesh_.triangle(static_cast<uint32_t>(i));
@@ -81,7 +81,7 @@ public:
             if (counts.pieces[i] > 1) ++result.split_count;
         }
         result.refs.resize(first.back());
-        parallel_for(mesh_.triangle_count(), kGrain, [&](size_t begin, size_t end) {
+        parallel_for(mesh_.triangle_count(), kTriangleGrain, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end && !task_.stopped(); ++i) {
                 const std::span<PrimRef> refs = std::span(result.refs).subspan(first[i], counts.pieces[i]);
                 fill_pieces(static_cast<uint32_t>(i), limit, refs);

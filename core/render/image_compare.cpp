@@ -7,7 +7,7 @@ namespace boxwood {
 
 namespace {
 
-constexpr int kTileSize = 16;
+constexpr int kComparedTile = 16;
 
 int pixel_difference(const uint8_t* a, const uint8_t* b) {
     int largest = 0;
@@ -36,10 +36,10 @@ Comparison compare_images(const Image& reference, const Image& result, int thres
     comparison.same_size = reference.width == result.width && reference.height == result.height;
     if (!comparison.same_size) return comparison;
     comparison.difference = Image(reference.width, reference.height);
-    for (int tile_y = 0; tile_y < reference.height; tile_y += kTileSize) {
-        for (int tile_x = 0; tile_x < reference.width; tile_x += kTileSize) {
-            const int end_x = std::min(tile_x + kTileSize, reference.width);
-            const int end_y = std::min(tile_y + kTileSize, reference.height);
+    for (int tile_y = 0; tile_y < reference.height; tile_y += kComparedTile) {
+        for (int tile_x = 0; tile_x < reference.width; tile_x += kComparedTile) {
+            const int end_x = std::min(tile_x + kComparedTile, reference.width);
+            const int end_y = std::min(tile_y + kComparedTile, reference.height);
             int64_t sum = 0;
             for (int y = tile_y; y < end_y; ++y) {
                 for (int x = tile_x; x < end_x; ++x) {

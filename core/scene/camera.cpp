@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace boxwood {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 bool is_finite(const DVec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 double tan_half_fov(float fov) {
     const double degrees = std::isfinite(fov) ? std::clamp(static_cast<double>(fov), 1.0, 170.0) : 45.0;
-    return std::tan(degrees * (kPi / 360.0));
+    return std::tan(degrees * (std::numbers::pi / 360.0));
 }
 
 /// Of length 1; `fallback` where v has no direction.

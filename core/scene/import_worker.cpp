@@ -79,12 +79,11 @@ aiMatrix4x4t<double> in_double(const aiMatrix4x4& m) {
     return result;
 }
 
-struct Visit {
-    const aiNode* node;
-    aiMatrix4x4t<double> parent_to_world;
-};
-
 Mesh flatten(const aiScene& scene) {
+    struct Visit {
+        const aiNode* node;
+        aiMatrix4x4t<double> parent_to_world;
+    };
     Mesh mesh;
     std::vector<Visit> stack;
     stack.push_back({scene.mRootNode, {}});

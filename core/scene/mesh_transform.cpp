@@ -1,6 +1,7 @@
 #include "core/scene/mesh_transform.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "core/base/assert.h"
 #include "core/base/parallel.h"
@@ -8,8 +9,7 @@
 namespace boxwood {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr size_t kGrain = 1 << 16;
+constexpr size_t kPositionGrain = 1 << 16;
 
 }  // namespace
 
@@ -18,8 +18,8 @@ AffineMap rotation(double degrees, const DVec3& axis, const DVec3& center) {
     BOXWOOD_ASSERT(std::isfinite(length) && length > 0.0);
     const DVec3 a = axis / length;
     const double turn = std::remainder(degrees, 360.0);
-    double c = std::cos(turn * (kPi / 180.0));
-    double s = std::sin(turn * (kPi / 180.0));
+    double c = std::cos(turn * (std::numbers::pi / 180.0));
+    double s = std::sin(turn * (std::numbers::pi / 180.0));
     if (std::remainder(turn, 90.0) == 0.0) {
         c = std::round(c);
         s = std::round(s);
@@ -36,7 +36,7 @@ AffineMap rotation(double degrees, const DVec3& axis, const DVec3& center) {
 
 void transform(Mesh& mesh, const AffineMap& map) {
     const auto move_all = [&](std::vector<Vec3>& positions) {
-        parallel_for(positions.size(), kGrain, [&](size_t begin, size_t end) {
+        parallel_for(positions.size(), kPositionGrain, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) positions[i] = Vec3(map(DVec3(positions[i])));
         });
     };

@@ -10,7 +10,7 @@
 namespace boxwood {
 namespace {
 
-constexpr size_t kGrain = 1 << 14;
+constexpr size_t kVertexGrain = 1 << 14;
 
 /// The sum is rounded once and its half is exact: a half that is not (below 2^-126) comes of a sum that was.
 /// Where the sum overflows both halves are exact, but for bits that cannot count.
@@ -40,7 +40,7 @@ SidesByVertex group_sides(const Mesh& mesh, const Task& task) {
     grouped.first.assign(mesh.positions.size() + 2, 0);
     const auto for_each_side = [&](auto&& visit) {
         for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-            if (t % kGrain == 0 && task.stopped()) return;
+            if (t % kVertexGrain == 0 && task.stopped()) return;
             for (uint32_t i = 0; i < 3; ++i) {
                 const uint32_t a = corner(mesh.triangles[t], i), b = corner(mesh.triangles[t], i + 1);
                 visit(std::min(a, b), std::max(a, b), 3 * t + i);
@@ -55,7 +55,7 @@ SidesByVertex group_sides(const Mesh& mesh, const Task& task) {
         grouped.sides[grouped.first[low + 1]++] = {high, side};
     });
     if (task.stopped()) return grouped;
-    parallel_for(mesh.positions.size(), kGrain, [&](size_t begin, size_t end) {
+    parallel_for(mesh.positions.size(), kVertexGrain, [&](size_t begin, size_t end) {
         for (size_t v = begin; v < end && !task.stopped(); ++v) {
             std::sort(grouped.sides.begin() + grouped.first[v], grouped.sides.begin() + grouped.first[v + 1],
                       [](const SideOfVertex& a, const SideOfVertex& b) {
@@ -74,7 +74,7 @@ std::vector<uint32_t> add_middles(Mesh& mesh, const Task& task) {
     if (task.stopped()) return middle;
     const auto vertex_count = static_cast<uint32_t>(mesh.positions.size());
     for (uint32_t v = 0; v < vertex_count; ++v) {
-        if (v % kGrain == 0 && task.stopped()) return middle;
+        if (v % kVertexGrain == 0 && task.stopped()) return middle;
         for (uint32_t i = grouped.first[v]; i < grouped.first[v + 1]; ++i) {
             const SideOfVertex& side = grouped.sides[i];
             const bool is_first = i == grouped.first[v] || grouped.sides[i - 1].other != side.other;
@@ -91,7 +91,7 @@ void subdivide_once(Mesh& mesh, Task& task) {
     const size_t count = mesh.triangles.size();
     std::vector<UVec3> triangles(4 * count);
     std::vector<uint32_t> source_prim(4 * count), object(4 * count);
-    parallel_for(count, kGrain, [&](size_t begin, size_t end) {
+    parallel_for(count, kVertexGrain, [&](size_t begin, size_t end) {
         if (task.stopped()) return;
         for (size_t t = begin; t < end; ++t) {
             const UVec3 v = mesh.triangles[t];

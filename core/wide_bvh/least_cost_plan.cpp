@@ -9,7 +9,7 @@ namespace boxwood {
 
 namespace {
 
-constexpr uint32_t kParallelDepth = 9;  ///< nodes above it are solved in parallel
+constexpr uint32_t kParallelPlanDepth = 9;  ///< nodes above it are solved in parallel
 
 double half_area(const Bvh2::Node& node) { return Box{node.lower, node.upper}.half_area(); }
 
@@ -35,7 +35,7 @@ LeastCosts<Width> LeastCostPlan<Width>::solve(uint32_t node, uint32_t depth) {
     if (task_.stopped()) return left;
     const auto solve_left = [&] { left = solve(source.first, depth + 1); };
     const auto solve_right = [&] { right = solve(source.first + 1, depth + 1); };
-    if (depth < kParallelDepth) {
+    if (depth < kParallelPlanDepth) {
         parallel_invoke(solve_left, solve_right);
     } else {
         solve_left();

@@ -10,7 +10,7 @@ namespace boxwood {
 
 namespace {
 
-constexpr uint32_t kParallelDepth = 9;  ///< nodes above it are counted in parallel
+constexpr uint32_t kParallelCountDepth = 9;  ///< nodes above it are counted in parallel
 
 /// Makes two ascending lists, [begin, middle) and the rest, one in which each number stands once.
 void unite(std::vector<uint32_t>& prims, size_t begin, size_t middle) {
@@ -50,7 +50,7 @@ void PrimCounts::count_below(uint32_t node, uint32_t depth, std::vector<uint32_t
     const uint32_t left = source.first, right = left + 1;
     const size_t begin = prims.size();
     size_t middle;
-    if (depth < kParallelDepth) {
+    if (depth < kParallelCountDepth) {
         std::vector<uint32_t> right_prims;
         parallel_invoke([&] { count_below(left, depth + 1, prims); },
                         [&] { count_below(right, depth + 1, right_prims); });

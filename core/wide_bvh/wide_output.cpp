@@ -12,14 +12,12 @@ namespace boxwood {
 
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 template <uint32_t Width>
 typename WideBvh<Width>::Node empty_node() {
     typename WideBvh<Width>::Node node{};
     for (int axis = 0; axis < 3; ++axis) {
-        std::ranges::fill(node.lower[axis], kInfinity);
-        std::ranges::fill(node.upper[axis], -kInfinity);
+        std::ranges::fill(node.lower[axis], std::numeric_limits<float>::infinity());
+        std::ranges::fill(node.upper[axis], -std::numeric_limits<float>::infinity());
     }
     return node;
 }

@@ -6,18 +6,14 @@
 #include <vector>
 
 #include "core/catalog/pipeline.h"
+#include "tests/support/sanitized.h"
 
 namespace boxwood {
 
 /// Every reference maker with every builder of the catalog, and every transform on every builder that it
 /// takes with whole boxes, and on one of them with pieces; not those that need an animated scene. Under a
-/// sanitizer, which makes them ten times as slow: every row of the catalog once.
+/// sanitizer: every row of the catalog once.
 inline std::vector<std::string> all_recipes() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    constexpr bool kOnce = true;
-#else
-    constexpr bool kOnce = false;
-#endif
     std::vector<std::string> recipes;
     std::set<std::string> transformed;  // with these references: the transforms that have been used
     for (const CatalogEntry& references : reference_catalog()) {
@@ -25,12 +21,13 @@ inline std::vector<std::string> all_recipes() {
         transformed.clear();
         for (const CatalogEntry& builder : builder_catalog()) {
             const std::string text = std::string(references.id) + " > " + builder.id;
-            if (!kOnce || is_whole || std::string(builder.id) == "bvh-binned-sah") recipes.push_back(text);
+            if (!kIsSanitized || is_whole || std::string(builder.id) == "bvh-binned-sah")
+                recipes.push_back(text);
             for (const CatalogEntry& transform : transform_catalog()) {
                 if (std::string(transform.input) != builder.output || transform.make()->input_frame())
                     continue;
                 const bool is_first = transformed.insert(transform.id).second;
-                if (is_first ? is_whole || !kOnce : is_whole && !kOnce)
+                if (is_first ? is_whole || !kIsSanitized : is_whole && !kIsSanitized)
                     recipes.push_back(text + " > " + transform.id);
             }
         }

@@ -23,14 +23,23 @@ inline Vec3 random_point(Rng& rng, float lower, float upper) {
     return {x, y, z};
 }
 
+inline Box random_box(Rng& rng, float lower, float upper) {
+    Box box;
+    box.extend(random_point(rng, lower, upper));
+    box.extend(random_point(rng, lower, upper));
+    return box;
+}
+
+inline Triangle random_triangle(Rng& rng, float lower, float upper) {
+    const Vec3 a = random_point(rng, lower, upper), b = random_point(rng, lower, upper);
+    return {a, b, random_point(rng, lower, upper)};
+}
+
 /// Corners in the cube [lower, upper]^3.
 inline std::vector<Triangle> random_triangles(size_t count, float lower, float upper, uint64_t seed) {
     Rng rng(seed);
     std::vector<Triangle> triangles;
-    for (size_t i = 0; i < count; ++i) {
-        const Vec3 a = random_point(rng, lower, upper), b = random_point(rng, lower, upper);
-        triangles.push_back({a, b, random_point(rng, lower, upper)});
-    }
+    for (size_t i = 0; i < count; ++i) triangles.push_back(random_triangle(rng, lower, upper));
     return triangles;
 }
 

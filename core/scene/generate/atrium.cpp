@@ -10,8 +10,6 @@
 namespace boxwood {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // The plan, in metres. Columns stand round the court on the lines x = +-12 and z = +-4.5; the galleries
 // behind them are kGallery deep. The court lies two steps below the galleries.
 constexpr double kBay = 3.0;

@@ -4,11 +4,6 @@
 #include <cmath>
 
 namespace boxwood {
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-}  // namespace
 
 void use_marble(MeshBuilder& b) { b.use_object("marble", {0.80f, 0.76f, 0.68f}); }
 void use_bronze(MeshBuilder& b) { b.use_object("bronze", {0.42f, 0.28f, 0.10f}); }

@@ -11,8 +11,6 @@ namespace boxwood::kitchen {
 // Parts that the pieces of the kitchen are made of, in the placement and object that the builder has.
 // Lengths in metres, angles in radians.
 
-inline constexpr double kPi = 3.14159265358979323846;
-
 /// `placement` turned about its own origin; `axis` is a local unit vector.
 Placement turned(const Placement& placement, const DVec3& axis, double angle);
 

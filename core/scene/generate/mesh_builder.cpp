@@ -7,8 +7,6 @@
 namespace boxwood {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Two directions perpendicular to `axis` and to each other.
 void perpendicular(const DVec3& axis, DVec3& x, DVec3& y) {
     const DVec3 helper = std::abs(axis.y) < 0.9 * glm::length(axis) ? DVec3(0, 1, 0) : DVec3(1, 0, 0);

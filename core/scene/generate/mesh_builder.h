@@ -1,12 +1,15 @@
 #pragma once
 
 #include <functional>
+#include <numbers>
 #include <span>
 #include <string>
 
 #include "core/scene/mesh.h"
 
 namespace boxwood {
+
+inline constexpr double kPi = std::numbers::pi;
 
 /// Place and directions of a part: local (x, y, z) lies at origin + x * x_axis + y * y_axis + z * z_axis.
 struct Placement {

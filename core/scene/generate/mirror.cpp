@@ -7,8 +7,6 @@
 namespace boxwood {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// The outside mirror of a car as patches of smooth surfaces, in metres: x to the outside, y up, the glass
 /// looks along z. Each patch is cut into a number of strips that grows with `detail`, as CAD programs cut by
 /// chord error: many where it bends, few along straight lines.

@@ -9,8 +9,6 @@
 namespace boxwood {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // The hall, in metres: three storeys of gratings and girders, tanks on the ground, pipes everywhere.
 constexpr double kLength = 72.0, kHeight = 27.0, kDepth = 36.0;
 constexpr double kStorey = 8.0, kBay = 6.0;

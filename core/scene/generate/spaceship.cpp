@@ -10,8 +10,6 @@
 namespace boxwood {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // The ship before it is turned, in metres: the nose at +x, y up, starboard +z.
 
 /// Half width, height above and depth below the water line, as it were, at one station of the hull. Between
@@ -130,10 +128,10 @@ void add_belts(MeshBuilder& b) {
 /// Between the belts: fields of slats, some plates, some bare hull.
 void add_fields(MeshBuilder& b, Rng& rng) {
     constexpr int kAcross = 5, kSlats = 9;
-    constexpr double kLength = 13.0, kField = 0.8 / kAcross;
+    constexpr double kCellLength = 13.0, kField = 0.8 / kAcross;
     for (size_t section = 0; section + 1 < kStations.size(); ++section) {
         const double front = kStations[section].x, back = kStations[section + 1].x;
-        const int along = std::max(1, static_cast<int>(std::lround((front - back) / kLength)));
+        const int along = std::max(1, static_cast<int>(std::lround((front - back) / kCellLength)));
         for (int cell = 0; cell < 8 * kAcross * along; ++cell) {
             const int side = cell % 8, across = cell / 8 % kAcross, place = cell / (8 * kAcross);
             const double x0 = front + (back - front) * (place + 0.04) / along;

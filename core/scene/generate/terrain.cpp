@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMaxTriangles = 50e6;
 constexpr double kSide = 100.0;   // of the square, in world units
-constexpr double kHeight = 27.0;  // from the lowest valley to the highest summit there can be
+constexpr double kRelief = 27.0;  // from the lowest valley to the highest summit there can be
 
 double lattice_value(int64_t x, int64_t z, int octave) {
     return static_cast<double>(hashed_float(static_cast<uint32_t>(x), static_cast<uint32_t>(z),
@@ -45,7 +45,7 @@ double height(double x, double z) {
         amplitude *= 0.44;
         frequency *= 2.03;
     }
-    return kHeight * sum;
+    return kRelief * sum;
 }
 
 /// Squares along each side, so that the triangles are as near to what is asked for as can be.
