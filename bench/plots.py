@@ -407,7 +407,7 @@ def draw_measures(pyplot, rows, predictions, folder):
         for axis in (panel.xaxis, panel.yaxis):
             axis.set_major_formatter(lambda value, _: f"{value:g}")
         panel.set_xlim(0.1, 64)
-        panel.set_ylim(0.35, 64)
+        panel.set_ylim(0.1, 64)
         panel.grid(True, color="#e4e4e4", linewidth=0.6)
         panel.set_axisbelow(True)
         panel.set_xlabel(label)
