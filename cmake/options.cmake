@@ -1,6 +1,3 @@
-# In Debug the libraries in which tests spend their time are optimised; the rest compiles in half the time without.
-set(boxwood_is_hot $<IN_LIST:$<TARGET_PROPERTY:NAME>,boxwood_core$<SEMICOLON>boxwood_oracle>)
-
 # The one place for language level, warnings and sanitizers. Every target of ours links boxwood_options PRIVATE.
 add_library(boxwood_options INTERFACE)
 target_compile_features(boxwood_options INTERFACE cxx_std_20)
@@ -10,7 +7,7 @@ target_compile_options(boxwood_options INTERFACE
     -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual>
     -ffp-contract=off
     $<$<CONFIG:Release>:-O2>
-    $<$<CONFIG:Debug>:$<IF:${boxwood_is_hot},-O1,-O0> -g1 -fno-omit-frame-pointer>)
+    $<$<CONFIG:Debug>:-O1 -g1 -fno-omit-frame-pointer>)
 set(CMAKE_CXX_FLAGS_RELEASE "")
 set(CMAKE_CXX_FLAGS_DEBUG "")
 set(CMAKE_CXX_EXTENSIONS OFF)

@@ -217,7 +217,10 @@ HWY_EXPORT(has_fused_operations);
 
 /// Calls f(name, whether it has fused operations) with each instruction set of this machine in use.
 void for_each_target(const std::function<void(const char*, bool)>& f) {
-    for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    // Of those that this source has; hwy::SupportedAndGeneratedTargets() may be another source's, whose are
+    // others.
+    for (int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1) {
+        const int64_t target = rest & -rest;
         if (target == HWY_SCALAR) continue;  // has no vectors
         hwy::SetSupportedTargetsForTest(target);
         f(hwy::TargetName(target), HWY_DYNAMIC_DISPATCH(has_fused_operations)());
