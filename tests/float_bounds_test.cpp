@@ -164,6 +164,7 @@ HWY_AFTER_NAMESPACE();
 
 #include "oracle/oracle.h"
 #include "support/exact_entry.h"
+#include "support/simd_targets.h"
 
 namespace boxwood {
 namespace {
@@ -171,21 +172,6 @@ namespace {
 HWY_EXPORT(answer_cases);
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-/// Calls f(name, whether it has fused operations) with each instruction set of this machine in use.
-void for_each_target(const std::function<void(const char*, bool)>& f) {
-    for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        if (target == HWY_SCALAR) continue;  // has no vectors
-        hwy::SetSupportedTargetsForTest(target);
-#if HWY_ARCH_X86
-        const bool is_fused = target <= HWY_AVX2;  // better ones have lower bits
-#else
-        const bool is_fused = true;
-#endif
-        f(hwy::TargetName(target), is_fused);
-    }
-    hwy::SetSupportedTargetsForTest(0);
-}
 
 using Make = std::function<FloatCase(Rng&)>;
 
@@ -273,7 +259,7 @@ void expect_needed(const std::vector<FloatCase>& cases, Mode mode, Variant varia
                    Needs needs = Needs::Any) {
     int wrong = 0;
     bool is_tried = false;
-    for_each_target([&](const char* name, bool is_fused) {
+    for_each_vector_target(HWY_TARGETS, [&](const std::string& name, bool is_fused) {
         EXPECT_EQ(wrong_count(cases, mode, Variant::Derived, is_wrong), 0) << name;
         if (needs != Needs::Any && is_fused != (needs == Needs::Fused)) return;
         wrong += wrong_count(cases, mode, variant, is_wrong);
@@ -293,7 +279,7 @@ TEST(FloatBounds, ReplacedComponentsNeedTheirPad) {
 TEST(FloatBounds, BoxesAreMetAtTheirCorners) {
     const std::vector<FloatCase> cases = make_cases(at_corner, 6000, 3);
     EXPECT_TRUE(oracle::meets(cases[0].ray, cases[0].box));
-    for_each_target([&](const char* name, bool) {
+    for_each_vector_target(HWY_TARGETS, [&](const std::string& name, bool) {
         EXPECT_EQ(wrong_count(cases, Mode::Exact, Variant::Derived, is_box_wrong), 0) << name;
     });
 }
@@ -345,7 +331,7 @@ TEST(FloatBounds, HoldWhereRoundingsAreLarge) {
     const std::vector<FloatCase> near_edge = make_cases(near, 20000, 5), far_edge = make_cases(far, 20000, 6),
                                  planes = make_cases(with_large_roundings_of_t, 4000, 7),
                                  corners = make_cases(along_z_inside_corner, 20000, 10);
-    for_each_target([&](const char* name, bool) {
+    for_each_vector_target(HWY_TARGETS, [&](const std::string& name, bool) {
         SCOPED_TRACE(name);
         EXPECT_EQ(wrong_count(near_edge, Mode::Exact, Variant::Derived, is_line_wrong), 0);
         EXPECT_EQ(wrong_count(far_edge, Mode::Exact, Variant::Derived, is_line_wrong), 0);
@@ -393,7 +379,7 @@ TEST(FloatBounds, HoldOnRaysOfAllSizes) {
                                  slivers = fast_hits(past_sliver, 40000, 14);
     EXPECT_GT(hits.size(), 500u);
     EXPECT_GT(slivers.size(), 100u);
-    for_each_target([&](const char* name, bool) {
+    for_each_vector_target(HWY_TARGETS, [&](const std::string& name, bool) {
         SCOPED_TRACE(name);
         size_t usable = 0, sure = 0, closed = 0;
         for (const FloatAnswer& answer : answers_of(cases, Mode::Exact, Variant::Derived)) {

@@ -87,11 +87,8 @@ namespace HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 
 void answer_packets(std::span<const PacketCase>, PacketVariant, std::span<PacketAnswers>) {}
-bool has_fused_operations() { return false; }
 
 #else
-
-bool has_fused_operations() { return HWY_NATIVE_FMA != 0; }
 
 template <class Bounds>
 void answer_box(const PacketCase& one_case, const BasicPacketRays<Bounds>& rays, PacketAnswers& answers) {
@@ -208,25 +205,12 @@ HWY_AFTER_NAMESPACE();
 
 #include "oracle/oracle.h"
 #include "support/exact_entry.h"
+#include "support/simd_targets.h"
 
 namespace boxwood {
 namespace {
 
 HWY_EXPORT(answer_packets);
-HWY_EXPORT(has_fused_operations);
-
-/// Calls f(name, whether it has fused operations) with each instruction set of this machine in use.
-void for_each_target(const std::function<void(const char*, bool)>& f) {
-    // Of those that this source has; hwy::SupportedAndGeneratedTargets() may be another source's, whose are
-    // others.
-    for (int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1) {
-        const int64_t target = rest & -rest;
-        if (target == HWY_SCALAR) continue;  // has no vectors
-        hwy::SetSupportedTargetsForTest(target);
-        f(hwy::TargetName(target), HWY_DYNAMIC_DISPATCH(has_fused_operations)());
-    }
-    hwy::SetSupportedTargetsForTest(0);
-}
 
 /// One ray sixteen times. A case without a box has the triangle's.
 PacketCase packet_of(const FloatCase& one_case) {
@@ -304,7 +288,7 @@ int wrong_count(const std::vector<PacketCase>& cases, PacketVariant variant, IsW
 
 /// No answer with the derived bounds is wrong, and with the variant's some are, without fused operations.
 void expect_needed(const std::vector<PacketCase>& cases, PacketVariant variant, IsWrong is_wrong) {
-    for_each_target([&](const char* name, bool is_fused) {
+    for_each_vector_target(HWY_TARGETS, [&](const std::string& name, bool is_fused) {
         EXPECT_EQ(wrong_count(cases, PacketVariant::Derived, is_wrong), 0) << name;
         if (is_fused) return;
         EXPECT_GT(wrong_count(cases, variant, is_wrong), 0) << name;
@@ -385,7 +369,7 @@ TEST(PacketBounds, HoldWhereRoundingsAreLarge) {
     const auto expect_right = [](FloatCase (*make)(Rng&), int count, uint64_t seed, IsWrong is_wrong) {
         const std::vector<PacketCase> equal = packets_of(make, count, seed),
                                       spread = spread_packets_of(make, count / 16, seed + 100);
-        for_each_target([&](const char* name, bool) {
+        for_each_vector_target(HWY_TARGETS, [&](const std::string& name, bool) {
             EXPECT_EQ(wrong_count(equal, PacketVariant::Derived, is_wrong), 0) << name << seed;
             EXPECT_EQ(wrong_count(spread, PacketVariant::Derived, is_wrong), 0) << name << seed;
         });
@@ -405,7 +389,7 @@ TEST(PacketBounds, HoldOnRaysOfAllSizes) {
     for (const auto make : {anywhere, past_sliver}) {
         std::vector<PacketCase> cases = packets_of(make, 500, 11);
         for (const PacketCase& packet : spread_packets_of(make, 30, 12)) cases.push_back(packet);
-        for_each_target([&](const char* name, bool) {
+        for_each_vector_target(HWY_TARGETS, [&](const std::string& name, bool) {
             EXPECT_EQ(wrong_count(cases, PacketVariant::Derived, is_any_wrong), 0) << name;
         });
     }

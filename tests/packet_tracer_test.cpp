@@ -1,7 +1,4 @@
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
-
-#include <functional>
 
 #include "core/bvh/binned_sah.h"
 #include "core/scene/camera.h"
@@ -9,6 +6,7 @@
 #include "core/wide_bvh/collapse.h"
 #include "core/wide_bvh/plain_hits.h"
 #include "support/random_mesh.h"
+#include "support/simd_targets.h"
 
 namespace boxwood {
 namespace {
@@ -78,26 +76,18 @@ std::vector<Ray> rays_of(const Scene& scene) {
     return rays;
 }
 
-void for_each_target(const std::function<void(const char*)>& f) {
-    for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        hwy::SetSupportedTargetsForTest(target);
-        f(hwy::TargetName(target));
-    }
-    hwy::SetSupportedTargetsForTest(0);
-}
-
 template <Mode mode, uint32_t Width>
 void expect_plain_hits(const WideBvh<Width>& bvh, const Mesh& mesh, const std::vector<Ray>& rays) {
     const Task task;
     std::vector<Hit> expected(rays.size());
     for (size_t i = 0; i < rays.size(); ++i) expected[i] = plain_closest_hit<mode>(bvh, mesh, rays[i], task);
-    for_each_target([&](const char* name) {
+    for_each_target(HWY_TARGETS, [&](const SimdTarget& target) {
         std::vector<Hit> hits(rays.size(), Hit{-1.0f, 1});
         bvh.closest_hits_coherent(mesh, rays, hits, mode, task);
         for (size_t i = 0; i < rays.size(); ++i) {
             ASSERT_EQ(std::bit_cast<uint32_t>(hits[i].t), std::bit_cast<uint32_t>(expected[i].t))
-                << name << ", ray " << i;
-            ASSERT_EQ(hits[i].prim, expected[i].prim) << name << ", ray " << i;
+                << target.name() << ", ray " << i;
+            ASSERT_EQ(hits[i].prim, expected[i].prim) << target.name() << ", ray " << i;
         }
     });
 }

@@ -4,6 +4,7 @@
 
 #include "core/scene/scene.h"
 #include "support/random_mesh.h"
+#include "support/skipped.h"
 
 namespace boxwood {
 namespace {
@@ -41,22 +42,15 @@ TEST(Qualities, LeavesOfManyPartsHoldTheirTriangles) {
     expect_whole(scene->mesh, Balanced{}.build(scene->mesh, refs, task));
 }
 
-uint64_t count_of(const Task& task, std::string_view reason) {
-    uint64_t sum = 0;
-    for (const auto& [name, count] : task.skipped.counts())
-        if (name == reason) sum += count;
-    return sum;
-}
-
 TEST(Qualities, BestSplitsSpaceWhereBoxesAreLoose) {
-    const std::string_view reason = "boxes are tight: not split in space";
+    const std::string reason = "boxes are tight: not split in space";
     for (const auto& [name, is_tight] :
          {std::pair("terrain@tris=10k", true), std::pair("spaceship", false)}) {
         Task task;
         const auto scene = open_scene(name, task);
         const std::vector<PrimRef> refs = whole_refs(scene->mesh);
         const WideBvh<8> best = Best{}.build(scene->mesh, refs, task);
-        EXPECT_EQ(count_of(task, reason), is_tight ? refs.size() : 0u) << name;
+        EXPECT_EQ(skipped(task, reason), is_tight ? refs.size() : 0u) << name;
         size_t count = 0;
         for (const WideBvh<8>::Pack& pack : best.packs) count += pack.count();
         EXPECT_EQ(count == refs.size(), is_tight) << name;

@@ -9,6 +9,7 @@
 #include "core/wide_bvh/collapse.h"
 #include "core/wide_bvh/plain_hits.h"
 #include "support/random_mesh.h"
+#include "support/simd_targets.h"
 
 namespace boxwood {
 namespace {
@@ -58,19 +59,16 @@ void expect_plain_hits(const WideBvh<Width>& bvh, const Mesh& mesh, const std::v
         expected_any[i] = plain_any_hit<mode>(bvh, mesh, rays[i], task) ? 1 : 0;
         ASSERT_EQ(expected_any[i] != 0, expected[i].is_hit());
     }
-    for (int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
-        const int64_t target = targets & -targets;
-        hwy::SetSupportedTargetsForTest(target);
+    for_each_target(HWY_TARGETS, [&](const SimdTarget& target) {
         bvh.closest_hits(mesh, rays, hits, mode, task);
         bvh.any_hits(mesh, rays, any, mode, task);
-        hwy::SetSupportedTargetsForTest(0);
         for (size_t i = 0; i < rays.size(); ++i) {
             ASSERT_EQ(std::bit_cast<uint32_t>(hits[i].t), std::bit_cast<uint32_t>(expected[i].t))
-                << hwy::TargetName(target) << ", ray " << i;
-            ASSERT_EQ(hits[i].prim, expected[i].prim) << hwy::TargetName(target) << ", ray " << i;
-            ASSERT_EQ(any[i], expected_any[i]) << hwy::TargetName(target) << ", ray " << i;
+                << target.name() << ", ray " << i;
+            ASSERT_EQ(hits[i].prim, expected[i].prim) << target.name() << ", ray " << i;
+            ASSERT_EQ(any[i], expected_any[i]) << target.name() << ", ray " << i;
         }
-    }
+    });
 }
 
 class WideTracer : public testing::TestWithParam<const char*> {};
