@@ -12,13 +12,18 @@ namespace boxwood {
 /// the distance, along an axis, of the scene's farthest corner from the ray's origin. What is of second order
 /// has room in kSecondOrder: 2^-10 is 2^14 u.
 ///
-/// Boxes. The parameter of a plane p of one axis is p r + c, with r = 1/d and c = -(o r) -+ pad. With R_i
-/// this axis' own R, and P the largest |p|: the roundings of r and of the last sum are at most u R_i |r|
-/// each, those of o r and c u |o r| each, that of p r u P |r|: u |r| (2 (R_i + |o|) + P) in all, to first
-/// order. A component below 2^-24 of the largest one D is replaced by that: inside the scene's box D t is at
-/// most R, so the point at t moves by at most u R, which is u R |r| of the parameter. Both, and the margin by
-/// which fast mode's boxes are larger, are taken off near planes and added to far ones, so every box is met
-/// that is met exactly, and its entry is a lower bound. (Without that a fused slab test misses boxes.)
+/// Boxes. The parameter of a plane p of one axis is p r + c, with r = f/d and c = -(o r) -+ pad. The
+/// roundings of 1/d, of r and of the last sum are proportional to the parameter: f = 1 - 3u makes that of a
+/// near plane ahead no larger than it is, as (1 + u)^3 (1 - 3u) < 1, and f = 1 + 4u (1 + 3u is no float) that
+/// of a far plane no smaller. A near plane behind the origin is none, as t_min is not negative, and behind a
+/// far plane no ray meets the box. What is left does not grow with the distance: the rounding of c, u |o r|;
+/// where products are not fused with sums, also those of p r and o r, u |r| (2 |o| + P) in all, with P the
+/// largest |p|. So a ray that starts a few u |o| off a flat box, as every ray does that leaves a triangle
+/// across an axis, is seen not to meet it. A component below 2^-24 of the largest one D is replaced by that:
+/// inside the scene's box D t is at most R, so the point at t moves by at most u R, which is u R |r| of the
+/// parameter. Both, and the margin by which fast mode's boxes are larger, are taken off near planes and added
+/// to far ones, so every box is met that is met exactly, and its entry is a lower bound. (Without that a
+/// fused slab test misses boxes.)
 ///
 /// Edge functions, exact mode. As for EdgeFilter in filter.h, with X the largest |x| or |y| of the sheared
 /// vertices and Z the largest |z|, x is off by at most e = u (2X + 3.5Z), and U, its sign's roundings, by 4X
@@ -48,6 +53,7 @@ struct FloatBounds {
     static constexpr float kSmallestDirection = 0x1p-40f;
     static constexpr float kLargest = 0x1p40f;
     static constexpr float kSecondOrder = 1.0f + 0x1p-10f;
+    static constexpr float kNear = 1.0f - 3.0f * kUnit, kFar = 1.0f + 4.0f * kUnit;  ///< of 1/d
     static constexpr float kSlab = kUnit * kSecondOrder, kMoved = kUnit * kSecondOrder;
     static constexpr float kMargin = 5.5f * kUnit * kSecondOrder;  ///< ClosestHit<Mode::Fast>::kMargin
     static constexpr float kEdge = 24.0f * kUnit * kSecondOrder;

@@ -32,7 +32,8 @@ public:
     using Numbers = uint32_t[kCount];
 
     HWY_ALIGN Floats t_min, t_max;
-    HWY_ALIGN Floats inverse[3], near_offset[3], far_offset[3];  ///< see FloatBounds, "Boxes"
+    /// See FloatBounds, "Boxes".
+    HWY_ALIGN Floats near_inverse[3], near_offset[3], far_inverse[3], far_offset[3];
     /// In the order of the axes x, y, z of the shear; z is the one with the largest |d|.
     HWY_ALIGN Floats origin[3], direction[3];
     HWY_ALIGN Numbers axes[3];
@@ -96,12 +97,14 @@ private:
                                      hn::Set(d, Bounds::kUnderflow));
             if constexpr (mode == Mode::Fast) moved = hn::MulAdd(reach, hn::Set(d, Bounds::kMargin), moved);
             const V size_of_o = hn::Abs(o[axis]), largest = hn::Set(d, scene.largest[axis]);
-            const V sizes = hn::MulAdd(hn::Set(d, 2.0f), hn::Add(reaches[axis], size_of_o), largest);
+            const V sizes = HWY_NATIVE_FMA ? size_of_o : hn::MulAdd(hn::Set(d, 2.0f), size_of_o, largest);
             const V pad = hn::Mul(hn::Abs(r[axis]), hn::MulAdd(hn::Set(d, Bounds::kSlab), sizes, moved));
-            const V c = hn::Neg(hn::Mul(o[axis], r[axis]));
-            hn::Store(r[axis], d, inverse[axis] + i);
-            hn::Store(hn::Sub(c, pad), d, near_offset[axis] + i);
-            hn::Store(hn::Add(c, pad), d, far_offset[axis] + i);
+            const V near = hn::Mul(r[axis], hn::Set(d, Bounds::kNear));
+            const V far = hn::Mul(r[axis], hn::Set(d, Bounds::kFar));
+            hn::Store(near, d, near_inverse[axis] + i);
+            hn::Store(hn::NegMulSub(o[axis], near, pad), d, near_offset[axis] + i);
+            hn::Store(far, d, far_inverse[axis] + i);
+            hn::Store(hn::NegMulAdd(o[axis], far, pad), d, far_offset[axis] + i);
             signs = hn::Or(signs, hn::ShiftLeftSame(hn::ShiftRight<31>(hn::BitCast(du, dir[axis])), axis));
             is_usable = hn::And(is_usable,
                                 hn::And(hn::Le(hn::Add(size_of_o, largest), most), hn::Le(size[axis], most)));

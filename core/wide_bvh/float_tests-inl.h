@@ -239,16 +239,20 @@ template <uint32_t Width>
 struct BoxRay {
     using D = hn::CappedTag<float, Width>;
     using V = hn::Vec<D>;
-    V inverse_x, inverse_y, inverse_z, near_x, near_y, near_z, far_x, far_y, far_z, t_min;
+    V near_inverse_x, near_inverse_y, near_inverse_z, near_x, near_y, near_z;
+    V far_inverse_x, far_inverse_y, far_inverse_z, far_x, far_y, far_z, t_min;
     /// Of the planes in a node, in floats.
     size_t plane_near_x, plane_near_y, plane_near_z, plane_far_x, plane_far_y, plane_far_z;
 
     template <Mode mode, class Bounds>
     HWY_INLINE BoxRay(const FloatRays<mode, Bounds>& rays, size_t i) {
         const D d;
-        inverse_x = hn::Set(d, rays.inverse[0][i]);
-        inverse_y = hn::Set(d, rays.inverse[1][i]);
-        inverse_z = hn::Set(d, rays.inverse[2][i]);
+        near_inverse_x = hn::Set(d, rays.near_inverse[0][i]);
+        far_inverse_x = hn::Set(d, rays.far_inverse[0][i]);
+        near_inverse_y = hn::Set(d, rays.near_inverse[1][i]);
+        far_inverse_y = hn::Set(d, rays.far_inverse[1][i]);
+        near_inverse_z = hn::Set(d, rays.near_inverse[2][i]);
+        far_inverse_z = hn::Set(d, rays.far_inverse[2][i]);
         near_x = hn::Set(d, rays.near_offset[0][i]);
         near_y = hn::Set(d, rays.near_offset[1][i]);
         near_z = hn::Set(d, rays.near_offset[2][i]);
@@ -267,16 +271,17 @@ struct BoxRay {
     }
     HWY_INLINE V entry(const float* planes) const {
         const D d;
-        return hn::Max(hn::Max(hn::MulAdd(hn::Load(d, planes + plane_near_x), inverse_x, near_x),
-                               hn::MulAdd(hn::Load(d, planes + plane_near_y), inverse_y, near_y)),
-                       hn::Max(hn::MulAdd(hn::Load(d, planes + plane_near_z), inverse_z, near_z), t_min));
+        return hn::Max(
+            hn::Max(hn::MulAdd(hn::Load(d, planes + plane_near_x), near_inverse_x, near_x),
+                    hn::MulAdd(hn::Load(d, planes + plane_near_y), near_inverse_y, near_y)),
+            hn::Max(hn::MulAdd(hn::Load(d, planes + plane_near_z), near_inverse_z, near_z), t_min));
     }
     HWY_INLINE V exit(const float* planes, float limit) const {
         const D d;
         return hn::Min(
-            hn::Min(hn::MulAdd(hn::Load(d, planes + plane_far_x), inverse_x, far_x),
-                    hn::MulAdd(hn::Load(d, planes + plane_far_y), inverse_y, far_y)),
-            hn::Min(hn::MulAdd(hn::Load(d, planes + plane_far_z), inverse_z, far_z), hn::Set(d, limit)));
+            hn::Min(hn::MulAdd(hn::Load(d, planes + plane_far_x), far_inverse_x, far_x),
+                    hn::MulAdd(hn::Load(d, planes + plane_far_y), far_inverse_y, far_y)),
+            hn::Min(hn::MulAdd(hn::Load(d, planes + plane_far_z), far_inverse_z, far_z), hn::Set(d, limit)));
     }
 };
 

@@ -9,6 +9,10 @@ namespace boxwood {
 /// differs from FloatBounds, whose names are used here: what depends on the triangle alone is computed once
 /// for all rays. u = 2^-24.
 ///
+/// Boxes. One r = 1/d serves near and far planes, so what is proportional to the parameter is in the pad: the
+/// roundings of r and of the last sum are at most u R_i |r| each, with R_i the distance of the scene's
+/// farthest plane along the axis; u |r| (2 (R_i + |o|) + P) in all, fused or not.
+///
 /// Edge functions. With P a corner from the origin, e the edge that begins there, n = P x e, z the axis along
 /// which |d| is largest and s = d / d_z, the edge function is F = d.(P x (P + e)) / d_z = s_x n_x + (s_y n_y
 /// + n_z), whose sign decides. Of its monomials s p e those of n_y carry the most roundings that may change

@@ -68,6 +68,26 @@ inline FloatCase with_large_roundings_of_t(Rng& rng) {
     return result;
 }
 
+/// A plane across x whose parameter is p/d, but for rounding.
+inline FloatCase from_zero(Rng& rng) {
+    FloatCase result;
+    const float px = rng.next(1.0f, 2.0f), dx = rng.next(1.0f, 2.0f);
+    result.ray.direction = {dx, 0.0f, 0.0f};
+    result.box = {{px, -0.001f, -0.001f}, {px, 0.001f, 0.001f}};
+    return result;
+}
+
+/// A plane across x, so near that of its parameter little is left but the roundings of the terms. These are
+/// just above 1/2.
+inline FloatCase beside_plane(Rng& rng) {
+    FloatCase result;
+    const float px = one(rng), dx = 2.0f - 0.03f * rng.next();
+    result.ray.origin.x = px - 0x1p-12f * one(rng);
+    result.ray.direction = {dx, 0.0f, 0.0f};
+    result.box = {{px, -0.001f, -0.001f}, {px, 0.001f, 0.001f}};
+    return result;
+}
+
 /// A plane across x, 0 between it and the origin. 1/d is just above 1/2.
 inline FloatCase before_plane(Rng& rng) {
     FloatCase result;
@@ -114,19 +134,20 @@ inline FloatCase at_corner(Rng& rng) {
     return result;
 }
 
-/// A ray that passes a corner of a triangle at some units of float, on the outside. Distances are just above
-/// 1, and differences with the origin round.
-inline FloatCase past_corner(Rng& rng) {
+/// A ray that passes an edge of a triangle at some units of float, on the outside: far nearer than the edge's
+/// ends, of which one is behind the origin. The edge lies in a face of the triangle's box.
+inline FloatCase past_edge(Rng& rng) {
     const float ox = 0x1p-10f * one(rng) * sign(rng), oz = 0x1p-10f * one(rng) * sign(rng);
-    const float dz = 2.0f - 0.03f * rng.next(), dx = dz * (1.0f - 0.01f * rng.next()), bz = one(rng);
+    const float dz = 2.0f - 0.03f * rng.next(), dx = dz * (1.0f - 0.01f * rng.next());
+    const float bz = one(rng), cz = -one(rng), y = one(rng);
     const double offset = double(rng.next(0.0f, 6.0f)) * 0x1p-24;
-    const double x = double(ox) + double(dx) / double(dz) * (double(bz) - double(oz)) + offset;
+    const double x =
+        double(ox) + double(dx) / double(dz) * (0.5 * (double(bz) + double(cz)) - double(oz)) + offset;
     FloatCase result;
     result.ray.origin = {ox, 0.0f, oz};
     result.ray.direction = {dx, 0.0f, dz};
-    result.triangle.a = {static_cast<float>(x), 0.0f, bz};
-    result.triangle.b = result.triangle.a + Vec3(0x1p-10f, 0.5f, 0.0f);
-    result.triangle.c = result.triangle.a + Vec3(0x1p-10f, -0.5f, 0.0f);
+    const float px = static_cast<float>(x);
+    result.triangle = {{px, y, bz}, {px, -y, cz}, {px + 1.0f, 0.0f, 0.0f}};
     return result;
 }
 
