@@ -108,8 +108,9 @@ std::string library_complaint(const Include& include) {
         return "only the window knows Dear ImGui";
     if (is_one_of(include.target, {"CLI/"}) && !in("app/cli")) return "only app/cli knows CLI11";
     if (is_one_of(include.target, {"gmp"}) && !in("oracle")) return "only oracle knows GMP";
-    if (is_one_of(include.target, {"tbb/"}) && include.file != "core/base/parallel.cpp")
-        return "only parallel.cpp knows TBB";
+    if (is_one_of(include.target, {"tbb/"}) && include.file != "core/base/parallel.cpp" &&
+        include.file != "core/base/array.cpp")
+        return "only parallel.cpp and array.cpp know TBB";
     if (is_one_of(include.target, {"nlohmann/", "CLI/", "tiny_gltf", "iostream"}) &&
         include.file.ends_with(".h"))
         return "no header carries so heavy a one";

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/scene.h"
+#include "core/wide_bvh/morton_part.h"
 #include "support/random_mesh.h"
 #include "support/skipped.h"
 
@@ -40,6 +41,28 @@ TEST(Qualities, LeavesOfManyPartsHoldTheirTriangles) {
     Task task;
     expect_whole(scene->mesh, Preview{}.build(scene->mesh, refs, task));
     expect_whole(scene->mesh, Balanced{}.build(scene->mesh, refs, task));
+}
+
+/// An order of which only the levels between neighbours count.
+MortonOrder order_of(std::initializer_list<uint8_t> levels) {
+    MortonOrder order;
+    order.levels.assign(levels);
+    order.keys.assign(levels.size() + 1, 0);
+    return order;
+}
+
+TEST(Qualities, PacksOfThePreviewEndWhereCodesPart) {
+    const auto packs = [](const MortonOrder& order) {
+        return morton_packs(order, {0, static_cast<uint32_t>(order.keys.size())});
+    };
+    // Equal levels: full packs.
+    EXPECT_EQ(packs(order_of({9, 9, 9, 9, 9, 9, 9, 9, 9, 9})), (std::vector<uint32_t>{0, 8, 11}));
+    // Three bits earlier after five: three lanes are worth it no more; four bits are.
+    EXPECT_EQ(packs(order_of({9, 9, 9, 9, 6, 9, 9, 9, 9})), (std::vector<uint32_t>{0, 8, 10}));
+    EXPECT_EQ(packs(order_of({9, 9, 9, 9, 5, 9, 9, 9, 9})), (std::vector<uint32_t>{0, 5, 10}));
+    // What fits into one pack is one.
+    EXPECT_EQ(packs(order_of({0, 1, 2, 3, 4, 5, 6})), (std::vector<uint32_t>{0, 8}));
+    EXPECT_EQ(packs(order_of({})), (std::vector<uint32_t>{0, 1}));
 }
 
 TEST(Qualities, BestSplitsSpaceWhereBoxesAreLoose) {

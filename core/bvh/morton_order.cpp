@@ -8,17 +8,8 @@ namespace boxwood {
 
 namespace {
 
-constexpr int kAxisBits = 21, kLeadingAxisBits = 10;
-constexpr int kCodeBits = 3 * kAxisBits, kLeadingBits = 3 * kLeadingAxisBits;
+constexpr int kAxisBits = 21, kCodeBits = 3 * kAxisBits, kLeadingBits = 30;
 constexpr size_t kCodeGrain = 1 << 14;
-
-/// Bit i of each of ten bits to bit 3 i, three axes at once.
-Int4 spread(Int4 v) {
-    v = (v | (v << 16)) & 0x030000ff;
-    v = (v | (v << 8)) & 0x0300f00f;
-    v = (v | (v << 4)) & 0x030c30c3;
-    return (v | (v << 2)) & 0x09249249;
-}
 
 /// Bit i of 21 bits to bit 3 i.
 uint64_t spread(uint64_t v) {
@@ -118,6 +109,8 @@ MortonGrid::MortonGrid(const Box& half_centers) {
                 extent[other] > extent[axis] || (extent[other] == extent[axis] && other < axis);
             if (is_longer) --shift_[axis];
         }
+        for (uint64_t cell = 0; cell < leading_[axis].size(); ++cell)
+            leading_[axis][cell] = static_cast<uint32_t>(spread(cell) << shift_[axis]);
     }
 }
 
@@ -136,9 +129,9 @@ uint64_t MortonGrid::code(const PrimRef& ref) const {
 }
 
 uint32_t MortonGrid::leading_code(const PrimRef& ref) const {
-    const Int4 c = spread(cell(ref) >> (kAxisBits - kLeadingAxisBits));
+    const Int4 c = cell(ref) >> (kAxisBits - kLeadingAxisBits);
     uint32_t code = 0;
-    for (int axis = 0; axis < 3; ++axis) code |= static_cast<uint32_t>(c[axis]) << shift_[axis];
+    for (int axis = 0; axis < 3; ++axis) code |= leading_[axis][static_cast<uint32_t>(c[axis])];
     return code;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "core/base/array.h"
 #include "core/bvh/box4.h"
 #include "core/bvh/top_down.h"
@@ -20,10 +22,13 @@ public:
     uint32_t leading_code(const PrimRef& ref) const;
 
 private:
+    static constexpr int kLeadingAxisBits = 10;
+
     Int4 cell(const PrimRef& ref) const;
 
     Float4 lower_, scale_;
     int shift_[3];  ///< of an axis' bits within each triple
+    std::array<std::array<uint32_t, 1 << kLeadingAxisBits>, 3> leading_;  ///< code of a cell along an axis
 };
 
 /// References along the Morton curve.

@@ -33,20 +33,20 @@ std::vector<TopNode> divide_morton(const MortonOrder& order, uint32_t part_size)
     return top;
 }
 
-MortonPartSplits::MortonPartSplits(const MortonOrder& order, RefRange range)
-    : order_(order), first_(range.begin) {
-    for (uint32_t i = range.begin; i + 1 < range.end; ++i) {
+MortonPartSplits::MortonPartSplits(std::span<const uint8_t> levels, uint32_t first)
+    : levels_(levels), first_(first) {
+    for (uint32_t i = 0; i < levels.size(); ++i) {
         uint32_t last = kHalve;
-        while (size_ > 0 && order.levels[stack_[size_ - 1]] > order.levels[i]) last = stack_[--size_];
-        left_[i - first_] = last;
-        right_[i - first_] = kHalve;
-        if (size_ > 0) right_[stack_[size_ - 1] - first_] = i;
+        while (size_ > 0 && levels[stack_[size_ - 1]] > levels[i]) last = first + stack_[--size_];
+        left_[i] = last;
+        right_[i] = kHalve;
+        if (size_ > 0) right_[stack_[size_ - 1]] = first + i;
         stack_[size_++] = i;
     }
 }
 
 MortonDivision MortonPartSplits::divide(RefRange range, uint32_t depth, uint32_t split) const {
-    if (split == kHalve || order_.levels[split] == MortonOrder::kEqual || must_halve(depth, range.count()))
+    if (split == kHalve || levels_[split - first_] == MortonOrder::kEqual || must_halve(depth, range.count()))
         return {range.begin + range.count() / 2, kHalve, kHalve};
     return {split + 1, left_[split - first_], right_[split - first_]};
 }

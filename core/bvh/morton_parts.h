@@ -26,12 +26,16 @@ class MortonPartSplits {
 public:
     static constexpr uint32_t kHalve = kNoIndex;
 
-    MortonPartSplits(const MortonOrder& order, RefRange range);
-    uint32_t of_all() const { return size_ > 0 ? stack_[0] : kHalve; }
+    /// `levels`: of the boundaries (see MortonOrder), fewer than kMortonPartSize; the first one is named
+    /// `first`.
+    MortonPartSplits(std::span<const uint8_t> levels, uint32_t first);
+    MortonPartSplits(const MortonOrder& order, RefRange range)
+        : MortonPartSplits(std::span(order.levels).subspan(range.begin, range.count() - 1), range.begin) {}
+    uint32_t of_all() const { return size_ > 0 ? stack_[0] + first_ : kHalve; }
     MortonDivision divide(RefRange range, uint32_t depth, uint32_t split) const;
 
 private:
-    const MortonOrder& order_;
+    std::span<const uint8_t> levels_;
     uint32_t first_;
     uint32_t size_ = 0;  ///< of the stack: boundaries of rising level whose right side is open
     std::array<uint32_t, kMortonPartSize> stack_, left_, right_;

@@ -15,9 +15,9 @@ namespace {
 // would shrink below that length. Among 3,000 random triangles and needles as large as the scene, t from 3 to
 // 18, no piece was deeper than t; t is at most 40. What would be deeper than this bound stays whole, which is
 // correct at any depth: it bounds the stack.
-constexpr int kMaxDepth = 96;
+constexpr int kMostCuts = 96;
 
-struct Piece {
+struct SubTriangle {
     DVec3 a, b, c;
     int depth;
 };
@@ -29,7 +29,7 @@ double volume(const DVec3& a, const DVec3& b) {
 
 /// Turns the piece so that ab is its largest edge; of equal ones the first in the order ab, bc, ca. Which of
 /// them is cut first makes no crack: an edge's middle depends on its ends alone.
-double turn_to_largest_edge(Piece& piece) {
+double turn_to_largest_edge(SubTriangle& piece) {
     const double ab = volume(piece.a, piece.b), bc = volume(piece.b, piece.c), ca = volume(piece.c, piece.a);
     if (ab >= bc && ab >= ca) return ab;
     if (bc >= ca) {
@@ -62,7 +62,7 @@ public:
             }
     }
 
-    Box box_of(const Piece& piece) const {
+    Box box_of(const SubTriangle& piece) const {
         Box box;
         for (int axis = 0; axis < 3; ++axis) {
             const bool is_exact = largest_[axis] <= std::ldexp(smallest_[axis], 29 - piece.depth);
@@ -88,18 +88,18 @@ private:
 };
 
 /// Depth first, so that the stack holds at most one waiting piece for each depth.
-void cut(const Triangle& triangle, double threshold, const EmitBox& emit) {
+void cut_edges(const Triangle& triangle, double threshold, const EmitBox& emit) {
     const OutwardBoxes boxes(triangle);
-    std::array<Piece, kMaxDepth + 1> stack;
+    std::array<SubTriangle, kMostCuts + 1> stack;
     size_t size = 0;
     stack[size++] = {DVec3(triangle.a), DVec3(triangle.b), DVec3(triangle.c), 0};
     while (size > 0) {
-        Piece piece = stack[--size];
+        SubTriangle piece = stack[--size];
         const double largest = turn_to_largest_edge(piece);
         const DVec3 middle = (piece.a + piece.b) * 0.5;
         // An edge that has no number between its ends cannot be cut.
         const bool is_cut =
-            largest > threshold && piece.depth < kMaxDepth && middle != piece.a && middle != piece.b;
+            largest > threshold && piece.depth < kMostCuts && middle != piece.a && middle != piece.b;
         if (!is_cut) {
             if (!emit(boxes.box_of(piece))) return;
             continue;
@@ -126,7 +126,7 @@ References EdgeVolume::make(const Mesh& mesh, Task& task) const {
                                   .largest = bounds.volume(),
                                   .growth = 2.0 / 3.0,  // a cut makes two pieces; two cuts halve every extent
                                   .measure = edge_volume,
-                                  .cut = cut};
+                                  .cut = cut_edges};
     return subdivide(mesh, rule, budget, task);
 }
 

@@ -1,97 +1,72 @@
 #include "core/wide_bvh/morton_part.h"
 
+#include <algorithm>
+
 namespace boxwood {
 
-namespace {
-
-/// Writes the shape; returns the number of leaves.
-class ShapeWriter {
-public:
-    ShapeWriter(const MortonOrder& order, RefRange range, uint8_t* shape)
-        : splits_(order, range), shape_(shape) {}
-
-    uint32_t write(RefRange range, uint32_t depth) {
-        write_node(range, depth, splits_.of_all());
-        return leaf_count_;
-    }
-
-private:
-    void write_node(RefRange range, uint32_t depth, uint32_t split) {
-        if (range.count() <= Pack8::kSize) {
-            *shape_++ = static_cast<uint8_t>(range.count());
-            ++leaf_count_;
-            return;
+std::vector<uint32_t> morton_packs(const MortonOrder& order, RefRange range) {
+    constexpr uint32_t kMeanSize = 6;  // about; smaller ones need more memory for a moment
+    std::vector<uint32_t> first;
+    first.reserve(range.count() / kMeanSize + 2);
+    uint32_t at = range.begin;
+    while (range.end - at > Pack8::kSize) {
+        first.push_back(at);
+        const uint8_t* const levels = &order.levels[at];
+        uint32_t best = Pack8::kSize;
+        int best_cost = levels[best - 1] - static_cast<int>(best);
+        for (uint32_t count = Pack8::kSize - 1; count > 0; --count) {
+            const int cost = levels[count - 1] - static_cast<int>(count);
+            if (cost < best_cost) {
+                best_cost = cost;
+                best = count;
+            }
         }
-        *shape_++ = 0;
-        const MortonDivision at = splits_.divide(range, depth, split);
-        write_node({range.begin, at.mid}, depth + 1, at.left_split);
-        write_node({at.mid, range.end}, depth + 1, at.right_split);
+        at += best;
     }
+    first.push_back(at);
+    first.push_back(range.end);
+    return first;
+}
 
-    const MortonPartSplits splits_;
-    uint8_t* shape_;
-    uint32_t leaf_count_ = 0;
-};
-
-/// Builds the tree along its shape.
-class ShapeReader {
-public:
-    ShapeReader(const MortonOrder& order, uint32_t first, const uint8_t* shape, const PackFiller& filler,
-                Pack8* packs, PartTree& tree)
-        : order_(order), filler_(filler), tree_(tree), shape_(shape), packs_(packs), next_(first) {}
-
-    void build_node(uint32_t node, PartRoot& result) {
-        const uint32_t count = *shape_++;
-        if (count != 0) return make_leaf(node, count, result);
-        const uint32_t left = tree_.add_children();
-        PartRoot right;
-        build_node(left, result);
-        build_node(left + 1, right);
-        result.box.extend(right.box.lower, right.box.upper);
-        result.costs = tree_.set_inner(node, result.box, left, result.costs, right.costs);
-    }
-
-private:
-    void make_leaf(uint32_t node, uint32_t count, PartRoot& result) {
-        constexpr size_t kAhead = 40, kCornersAhead = 20;
-        PackPrims prims;
-        for (uint32_t i = 0; i < Pack8::kSize; ++i) {
-            prims[i] = order_.ref(next_);
-            if (i + 1 >= count) continue;
-            ++next_;
-        }
-        ++next_;
-        for (size_t i = next_; i < next_ + count; ++i) {
-            if (i + kAhead < order_.keys.size()) filler_.prefetch(order_.ref(i + kAhead));
-            if (i + kCornersAhead < order_.keys.size())
-                filler_.prefetch_corners(order_.ref(i + kCornersAhead));
-        }
-        result.box = filler_.fill(prims, packs_[pack_]);
-        result.costs = tree_.set_leaf(node, result.box, pack_++);
-    }
-
-    const MortonOrder& order_;
-    const PackFiller& filler_;
-    PartTree& tree_;
-    const uint8_t* shape_;
-    Pack8* packs_;
-    uint32_t next_;  ///< in the order
-    uint32_t pack_ = 0;
-};
-
-}  // namespace
-
-MortonPart::MortonPart(const MortonOrder& order, RefRange range, uint32_t depth, std::span<uint8_t> shape)
-    : order_(order),
-      range_(range),
-      shape_(shape.data()),
-      pack_count_(ShapeWriter(order, range, shape.data()).write(range, depth)) {}
-
-PartRoot MortonPart::build(const PackFiller& filler, std::span<Pack8> packs, PartTree& tree) const {
-    PartRoot root;
+PartRoot MortonPartBuild::build(const MortonOrder& order, std::span<const uint32_t> first, uint32_t depth,
+                                const PackFiller& filler, std::span<Pack8> packs, PartTree& tree) {
+    fill_packs(order, first, filler, packs);
+    const auto count = static_cast<uint32_t>(packs.size());
+    for (uint32_t i = 0; i + 1 < count; ++i) levels_[i] = order.levels[first[i + 1] - 1];
+    const MortonPartSplits splits({levels_.data(), count - 1}, 0);
     tree.clear();
-    ShapeReader(order_, range_.begin, shape_, filler, packs.data(), tree).build_node(0, root);
-    return root;
+    return build_node(splits, 0, {0, count}, depth, splits.of_all(), tree);
+}
+
+void MortonPartBuild::fill_packs(const MortonOrder& order, std::span<const uint32_t> first,
+                                 const PackFiller& filler, std::span<Pack8> packs) {
+    constexpr size_t kAhead = 40, kCornersAhead = 20;
+    const size_t end = order.keys.size();
+    for (size_t i = 0; i < packs.size(); ++i) {
+        PackPrims prims;
+        for (uint32_t lane = 0; lane < Pack8::kSize; ++lane)
+            prims[lane] = order.ref(std::min(first[i] + lane, first[i + 1] - 1));
+        for (size_t at = first[i]; at < first[i + 1]; ++at) {
+            if (at + kAhead < end) filler.prefetch(order.ref(at + kAhead));
+            if (at + kCornersAhead < end) filler.prefetch_corners(order.ref(at + kCornersAhead));
+        }
+        boxes_[i] = filler.fill(prims, packs[i]);
+    }
+}
+
+PartRoot MortonPartBuild::build_node(const MortonPartSplits& splits, uint32_t node, RefRange packs,
+                                     uint32_t depth, uint32_t split, PartTree& tree) const {
+    if (packs.count() == 1) {
+        const Box4& box = boxes_[packs.begin];
+        return {box, tree.set_leaf(node, box, packs.begin)};
+    }
+    const MortonDivision at = splits.divide(packs, depth, split);
+    const uint32_t left = tree.add_children();
+    PartRoot result = build_node(splits, left, {packs.begin, at.mid}, depth + 1, at.left_split, tree);
+    const PartRoot right = build_node(splits, left + 1, {at.mid, packs.end}, depth + 1, at.right_split, tree);
+    result.box.extend(right.box.lower, right.box.upper);
+    result.costs = tree.set_inner(node, result.box, left, result.costs, right.costs);
+    return result;
 }
 
 }  // namespace boxwood

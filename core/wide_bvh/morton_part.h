@@ -6,22 +6,28 @@
 
 namespace boxwood {
 
-/// The hierarchy of the Morton codes over a part of up to kMortonPartSize triangles, whose leaves are packs:
-/// first its shape alone, then, where it is known how many packs all parts before have, the tree.
-class MortonPart {
-public:
-    /// `order`: of the triangles of a mesh, all of them. `shape` has room for 2 range.count() bytes.
-    MortonPart(const MortonOrder& order, RefRange range, uint32_t depth, std::span<uint8_t> shape);
+/// Where each pack of a part of the Morton order begins, and where the last one ends. A pack takes up to
+/// eight neighbours on the curve, one fewer for every leading bit by which the codes part earlier there: full
+/// packs are fewer, but those across a jump of the curve have large boxes.
+std::vector<uint32_t> morton_packs(const MortonOrder& order, RefRange range);
 
-    uint32_t pack_count() const { return pack_count_; }
-    /// Writes the packs, too: packs.size() == pack_count().
-    PartRoot build(const PackFiller& filler, std::span<Pack8> packs, PartTree& tree) const;
+/// Builds the hierarchy of the Morton codes over a part of up to kMortonPartSize triangles, whose leaves are
+/// packs. One for each thread: it keeps its memory.
+class MortonPartBuild {
+public:
+    /// `order`: of the triangles of a mesh, all of them; `first`: where each pack of the part begins in it,
+    /// and where the last one ends. Writes the packs, too.
+    PartRoot build(const MortonOrder& order, std::span<const uint32_t> first, uint32_t depth,
+                   const PackFiller& filler, std::span<Pack8> packs, PartTree& tree);
 
 private:
-    const MortonOrder& order_;
-    RefRange range_;
-    uint8_t* shape_;  ///< of each node, parents before children, left before right: 0, or triangles of a leaf
-    uint32_t pack_count_ = 0;
+    void fill_packs(const MortonOrder& order, std::span<const uint32_t> first, const PackFiller& filler,
+                    std::span<Pack8> packs);
+    PartRoot build_node(const MortonPartSplits& splits, uint32_t node, RefRange packs, uint32_t depth,
+                        uint32_t split, PartTree& tree) const;
+
+    std::array<Box4, kMortonPartSize> boxes_;
+    std::array<uint8_t, kMortonPartSize> levels_;  ///< between pack i and i + 1
 };
 
 }  // namespace boxwood

@@ -1,7 +1,7 @@
 #include "core/wide_bvh/qualities.h"
 
 #include <algorithm>
-#include <optional>
+#include <memory>
 
 #include "core/base/assert.h"
 #include "core/bvh/binned_sah.h"
@@ -55,33 +55,31 @@ void for_parts(size_t count, const Task& task, const MakeWorker& make_worker) {
 WideBvh<8> build_preview(const Mesh& mesh, std::span<const PrimRef> refs, const Task& task) {
     const MortonOrder order = morton_order(refs, Pack8::kSize, task);
     if (task.stopped()) return {};
-    const std::vector<TopNode> top = divide_morton(order, kMortonPartSize), nodes = parts_of(top);
-    Array<uint8_t> shapes(2 * refs.size());
-    std::vector<std::optional<MortonPart>> parts(nodes.size());
+    const std::vector<TopNode> top = divide_morton(order, kMortonPartSize), parts = parts_of(top);
+    std::vector<std::vector<uint32_t>> firsts(parts.size());
     parallel_for(parts.size(), kPartsAtOnce, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i)
-            parts[i].emplace(order, nodes[i].range, nodes[i].depth,
-                             std::span(shapes).subspan(size_t{2} * nodes[i].range.begin));
+        for (size_t i = begin; i < end; ++i) firsts[i] = morton_packs(order, parts[i].range);
     });
     // Depth first, which is the order of the curve; the parts themselves stand level by level.
     std::vector<size_t> along(parts.size());
     for (size_t i = 0; i < along.size(); ++i) along[i] = i;
-    std::ranges::sort(along, {}, [&](size_t i) { return nodes[i].range.begin; });
+    std::ranges::sort(along, {}, [&](size_t i) { return parts[i].range.begin; });
     std::vector<uint32_t> first_packs(parts.size());
     uint32_t pack_count = 0;
     for (const size_t i : along) {
         first_packs[i] = pack_count;
-        pack_count += parts[i]->pack_count();
+        pack_count += static_cast<uint32_t>(firsts[i].size()) - 1;
     }
     Array<Pack8> packs(pack_count);
     const PackFiller filler(mesh);
     std::vector<WidePiece> pieces(parts.size());
     for_parts(parts.size(), task, [&] {
-        return [&, tree = PartTree(part_costs(), kMortonPartSize)](size_t i) mutable {
-            const MortonPart& part = *parts[i];
-            const PartRoot root =
-                part.build(filler, std::span(packs).subspan(first_packs[i], part.pack_count()), tree);
-            pieces[i] = make_piece(tree, root, part.pack_count());
+        return [&, tree = PartTree(part_costs(), kMortonPartSize),
+                build = std::make_unique<MortonPartBuild>()](size_t i) mutable {
+            const auto count = static_cast<uint32_t>(firsts[i].size()) - 1;
+            const PartRoot root = build->build(order, firsts[i], parts[i].depth, filler,
+                                               std::span(packs).subspan(first_packs[i], count), tree);
+            pieces[i] = make_piece(tree, root, count);
         };
     });
     if (task.stopped()) return {};

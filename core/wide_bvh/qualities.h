@@ -5,10 +5,10 @@
 
 namespace boxwood {
 
-/// The eight-wide hierarchy that is built fastest: the hierarchy of the Morton codes (see Morton) down to
-/// single packs, part by part, nodes of least expected cost (see Collapse) within the parts and above them; a
-/// part is at least one node. Packs stand depth first. Over pieces of triangles the two stages are run as
-/// they are.
+/// The eight-wide hierarchy that is built fastest: the hierarchy of the Morton codes (see Morton) over packs
+/// of neighbours on the curve, part by part, nodes of least expected cost (see Collapse) within the parts and
+/// above them; a part is at least one node. Packs stand depth first. Over pieces of triangles the two stages
+/// are run as they are.
 struct Preview {
     void describe(ParamVisitor&) {}
     WideBvh<8> build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const;

@@ -1,0 +1,40 @@
+#include "core/base/array.h"
+
+#include <tbb/scalable_allocator.h>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace boxwood {
+
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// Sanitizers watch what comes from operator new.
+constexpr std::align_val_t kAlignment{kLargePage};
+void* allocate(size_t size) { return ::operator new(size, kAlignment); }
+void free_memory(void* memory) { ::operator delete(memory, kAlignment); }
+#else
+void* allocate(size_t size) {
+    void* const memory = scalable_aligned_malloc(size, kLargePage);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+void free_memory(void* memory) { scalable_aligned_free(memory); }
+#endif
+
+}  // namespace
+
+void* allocate_large(size_t size) {
+    void* const memory = allocate(size);
+#ifdef __linux__
+    // A refusal costs speed alone.
+    static_cast<void>(madvise(memory, size / kLargePage * kLargePage, MADV_HUGEPAGE));
+#endif
+    return memory;
+}
+
+void free_large(void* memory) { free_memory(memory); }
+
+}  // namespace boxwood

@@ -1,0 +1,32 @@
+#include "core/base/array.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "support/sanitized.h"
+
+namespace boxwood {
+namespace {
+
+TEST(Array, KeepsWhatItHoldsAsItGrowsBeyondALargePage) {
+    Array<uint32_t> array;
+    for (uint32_t i = 0; i < 3 * kLargePage / sizeof(uint32_t); ++i) array.push_back(i);
+    for (uint32_t i = 0; i < array.size(); ++i) ASSERT_EQ(array[i], i);
+    EXPECT_EQ(reinterpret_cast<uintptr_t>(array.data()) % kLargePage, 0u);
+}
+
+TEST(Array, MemoryThatWasFreedIsThereAgain) {
+    if (kIsSanitized) GTEST_SKIP() << "sanitizers keep freed memory from being used again";
+    constexpr size_t kSize = 4 * kLargePage;
+    void* const first = allocate_large(kSize);
+    free_large(first);
+    void* const second = allocate_large(kSize);
+    EXPECT_EQ(second, first);
+    free_large(second);
+}
+
+TEST(Array, WhatNoMachineHasIsRefused) { EXPECT_THROW(allocate_large(size_t{1} << 60), std::bad_alloc); }
+
+}  // namespace
+}  // namespace boxwood
