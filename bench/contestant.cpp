@@ -67,15 +67,13 @@ Contestant renderer_in(Mode mode, const std::string& recipe, const Structure& st
     const auto tracer = std::make_shared<const PixelTracer>(mesh, mesh.bounds(), structure, picture);
     Contestant one = in_mode(mode, recipe);
     one.name += " renderer";
-    one.packets = [tracer, &task](std::span<const Ray> /*rays*/, std::span<const uint32_t> pixels,
+    one.packets = [tracer, &task](std::span<const Ray> /*same*/, std::span<const uint32_t> pixels,
                                   std::span<Hit> hits) {
-        PixelBatch batch;
+        std::vector<Ray> rays;
         for (size_t begin = 0; begin < pixels.size() && !task.stopped(); begin += kPixels) {
-            const std::span<const uint32_t> part =
-                pixels.subspan(begin, std::min(kPixels, pixels.size() - begin));
-            batch.pixels.assign(part.begin(), part.end());
-            tracer->cast(/*sample=*/0, batch, /*counted=*/false, task);
-            std::ranges::copy(batch.hits, hits.begin() + static_cast<std::ptrdiff_t>(begin));
+            const size_t count = std::min(kPixels, pixels.size() - begin);
+            tracer->find_hits(/*sample=*/0, pixels.subspan(begin, count), rays, hits.subspan(begin, count),
+                              task);
         }
     };
     return one;

@@ -37,30 +37,33 @@ PixelTracer::PixelTracer(const Mesh& mesh, const Box& bounds, Structure structur
       bounds_(bounds),
       diagonal_(std::sqrt(glm::dot(bounds.extent(), bounds.extent()))) {}
 
-bool PixelTracer::cast(uint32_t sample, PixelBatch& batch, bool counted, const Task& task) const {
-    const size_t count = batch.pixels.size();
+void PixelTracer::make_rays(uint32_t sample, std::span<const uint32_t> pixels, std::vector<Ray>& rays) const {
+    rays.resize(pixels.size());
+    if (sample == 0) return raster_.rays_through(pixels, rays);
     const uint32_t width = static_cast<uint32_t>(settings_.width);
-    batch.rays.resize(count);
-    batch.hits.resize(count);
-    batch.counts.resize(counted ? count : 0);
+    for (size_t i = 0; i < pixels.size(); ++i) {
+        const Vec2 offset = pixel_offset(pixels[i], sample);
+        const double x = static_cast<double>(pixels[i] % width) + static_cast<double>(offset.x);
+        const double y = static_cast<double>(pixels[i] / width) + static_cast<double>(offset.y);
+        rays[i] = camera_ray(frame_, x, y, settings_.width, settings_.height);
+    }
+}
+
+bool PixelTracer::cast(uint32_t sample, PixelBatch& batch, bool counted, const Task& task) const {
+    batch.hits.resize(batch.pixels.size());
+    batch.counts.resize(counted ? batch.pixels.size() : 0);
     batch.colors.clear();
     batch.ao_rays.clear();
-    if (sample == 0) {
-        raster_.rays_through(batch.pixels, batch.rays);
-    } else {
-        for (size_t i = 0; i < count; ++i) {
-            const uint32_t pixel = batch.pixels[i];
-            const Vec2 offset = pixel_offset(pixel, sample);
-            const double x = static_cast<double>(pixel % width) + static_cast<double>(offset.x);
-            const double y = static_cast<double>(pixel / width) + static_cast<double>(offset.y);
-            batch.rays[i] = camera_ray(frame_, x, y, settings_.width, settings_.height);
-        }
-    }
-    if (counted) {
-        structure_.closest_hits_counted(mesh_, batch.rays, batch.hits, batch.counts, settings_.mode, task);
-    } else {
-        structure_.closest_hits_coherent(mesh_, batch.rays, batch.hits, settings_.mode, task);
-    }
+    if (!counted) return find_hits(sample, batch.pixels, batch.rays, batch.hits, task);
+    make_rays(sample, batch.pixels, batch.rays);
+    structure_.closest_hits_counted(mesh_, batch.rays, batch.hits, batch.counts, settings_.mode, task);
+    return !task.stopped();
+}
+
+bool PixelTracer::find_hits(uint32_t sample, std::span<const uint32_t> pixels, std::vector<Ray>& rays,
+                            std::span<Hit> hits, const Task& task) const {
+    make_rays(sample, pixels, rays);
+    structure_.closest_hits_coherent(mesh_, rays, hits, settings_.mode, task);
     return !task.stopped();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/render/trace_image.h"
@@ -35,11 +36,17 @@ public:
     /// False if task.stop was requested: the batch is then half filled.
     bool cast(uint32_t sample, PixelBatch& batch, bool counted, const Task& task) const;
 
+    /// The hits alone of the same rays, which are written to `rays`. pixels.size() == hits.size(). False as
+    /// above.
+    bool find_hits(uint32_t sample, std::span<const uint32_t> pixels, std::vector<Ray>& rays,
+                   std::span<Hit> hits, const Task& task) const;
+
     /// Fills batch.colors after cast; for `ao` casts the hemisphere rays. Does nothing for heat. False as
     /// above.
     bool shade(uint32_t sample, PixelBatch& batch, const Task& task) const;
 
 private:
+    void make_rays(uint32_t sample, std::span<const uint32_t> pixels, std::vector<Ray>& rays) const;
     bool shade_ao(uint32_t sample, PixelBatch& batch, const Task& task) const;
     double depth_in_scene(const Ray& ray, float t) const;
     Vec3 surface_color(const Ray& ray, const Hit& hit) const;

@@ -1,7 +1,10 @@
 #include "core/scene/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <numbers>
 
@@ -79,29 +82,33 @@ Ray camera_ray(const CameraFrame& frame, double x, double y, int width, int heig
 }
 
 CameraRaster::CameraRaster(const CameraFrame& frame, int width, int height) : frame_(frame) {
-    for (int x = 0; x < width; ++x) columns_.push_back(column_offset(frame, x + 0.5, width));
-    for (int y = 0; y < height; ++y) rows_.push_back(row_offset(frame, y + 0.5, height));
+    for (int x = 0; x < width; ++x) columns_.push_back(split(column_offset(frame, x + 0.5, width)));
+    for (int y = 0; y < height; ++y) rows_.push_back(split(row_offset(frame, y + 0.5, height)));
 }
 
 void CameraRaster::rays_through(std::span<const uint32_t> pixels, std::span<Ray> rays) const {
+    using Float2 = float __attribute__((vector_size(8)));
+    static_assert(sizeof(Ray) == 32 && offsetof(Ray, t_min) == 12 && offsetof(Ray, direction) == 16);
     const auto width = static_cast<uint32_t>(columns_.size());
+    // One half of a ray moves with the pixel: its direction with t_max, or its origin with t_min.
     const Ray middle = ray_at(frame_, DVec3(0.0));
+    const size_t moving_at = frame_.orthographic ? 0 : offsetof(Ray, direction), same_at = 16 - moving_at;
+    Offset from = split(frame_.orthographic ? frame_.eye : frame_.forward);
+    from.z0[1] = double(frame_.orthographic ? middle.t_min : middle.t_max);
+    std::array<char, 16> same;
+    std::memcpy(same.data(), reinterpret_cast<const char*>(&middle) + same_at, same.size());
     uint32_t y = 0;
-    const auto offset = [&](uint32_t pixel) {
-        if (pixel - y * width >= width) y = pixel / width;  // seldom: pixels of one row follow each other
-        return columns_[pixel - y * width] + rows_[y];
-    };
     // Each ray is written in place: the parts of a copy would be read again before they are in the cache.
     for (size_t i = 0; i < pixels.size(); ++i) {
-        rays[i].t_min = middle.t_min;
-        rays[i].t_max = middle.t_max;
-        if (frame_.orthographic) {
-            rays[i].origin = Vec3(frame_.eye + offset(pixels[i]));
-            rays[i].direction = middle.direction;
-        } else {
-            rays[i].origin = middle.origin;
-            rays[i].direction = Vec3(frame_.forward + offset(pixels[i]));
-        }
+        if (pixels[i] - y * width >= width)
+            y = pixels[i] / width;  // seldom: those of a row follow each other
+        const Offset& column = columns_[pixels[i] - y * width];
+        const Offset& row = rows_[y];
+        const Float2 halves[2] = {__builtin_convertvector(from.xy + (column.xy + row.xy), Float2),
+                                  __builtin_convertvector(from.z0 + (column.z0 + row.z0), Float2)};
+        char* const ray = reinterpret_cast<char*>(&rays[i]);
+        std::memcpy(ray + same_at, same.data(), same.size());
+        std::memcpy(ray + moving_at, halves, sizeof halves);
     }
 }
 

@@ -49,8 +49,15 @@ public:
     void rays_through(std::span<const uint32_t> pixels, std::span<Ray> rays) const;
 
 private:
+    using Double2 = double __attribute__((vector_size(16)));
+    /// A point, and 0, in two registers.
+    struct Offset {
+        Double2 xy, z0;
+    };
+    static Offset split(const DVec3& v) { return {Double2{v.x, v.y}, Double2{v.z, 0.0}}; }
+
     CameraFrame frame_;
-    std::vector<DVec3> columns_, rows_;  ///< parts of the offset from the picture's middle
+    std::vector<Offset> columns_, rows_;  ///< parts of the offset from the picture's middle
 };
 
 /// A camera that sees the whole box from direction (0.55, 0.45, 0.7), y up (or z up), with the given field of
