@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstring>
+#include <fstream>
 
 #include "support/sanitized.h"
 
@@ -24,6 +26,26 @@ TEST(Array, MemoryThatWasFreedIsThereAgain) {
     void* const second = allocate_large(kSize);
     EXPECT_EQ(second, first);
     free_large(second);
+}
+
+/// Of this process, in bytes that are in memory.
+size_t resident_size() {
+    std::ifstream file("/proc/self/statm");
+    size_t all = 0, resident = 0;
+    file >> all >> resident;
+    return resident * 4096;
+}
+
+TEST(Array, WhatIsKeptCanBeGivenBack) {
+    if (kIsSanitized) GTEST_SKIP() << "sanitizers keep freed memory";
+    constexpr size_t kSize = size_t{96} << 20;
+    void* const memory = allocate_large(kSize);
+    std::memset(memory, 1, kSize);
+    const size_t used = resident_size();
+    if (used == 0) GTEST_SKIP() << "no /proc";
+    free_large(memory);
+    release_kept_memory();
+    EXPECT_LT(resident_size(), used - kSize / 2);
 }
 
 TEST(Array, WhatNoMachineHasIsRefused) { EXPECT_THROW(allocate_large(size_t{1} << 60), std::bad_alloc); }

@@ -15,6 +15,7 @@ namespace {
 constexpr std::align_val_t kAlignment{kLargePage};
 void* allocate(size_t size) { return ::operator new(size, kAlignment); }
 void free_memory(void* memory) { ::operator delete(memory, kAlignment); }
+void release() {}
 #else
 void* allocate(size_t size) {
     void* const memory = scalable_aligned_malloc(size, kLargePage);
@@ -22,6 +23,7 @@ void* allocate(size_t size) {
     return memory;
 }
 void free_memory(void* memory) { scalable_aligned_free(memory); }
+void release() { scalable_allocation_command(TBBMALLOC_CLEAN_ALL_BUFFERS, nullptr); }
 #endif
 
 }  // namespace
@@ -36,5 +38,7 @@ void* allocate_large(size_t size) {
 }
 
 void free_large(void* memory) { free_memory(memory); }
+
+void release_kept_memory() { release(); }
 
 }  // namespace boxwood

@@ -16,6 +16,8 @@ constexpr size_t kLargePage = size_t{2} << 20;
 /// would have to clear it again. Throws std::bad_alloc.
 void* allocate_large(size_t size);
 void free_large(void* memory);
+/// Gives what was freed and is still kept back to the system.
+void release_kept_memory();
 
 /// Memory for arrays of many megabytes. New elements are left as the memory was: they are first touched by
 /// the threads that write them, and nothing is written twice; for plain data alone, every element of which is

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/base/array.h"
 #include "core/base/error.h"
 #include "core/base/timer.h"
 #include "core/scene/load_file.h"
@@ -155,6 +156,7 @@ std::shared_ptr<const Scene> open_scene(const std::string& spec, Task& task) {
         parsed.built_in->make(options, *scene, task);
         scene->title = spec;
     } else {
+        release_kept_memory();  // of the builds of another scene
         *scene = load_scene_file(parsed.base, task);
         const std::string name = std::filesystem::path(parsed.base).filename().string();
         scene->title = to_utf8(name + spec.substr(parsed.base.size()));
