@@ -134,11 +134,12 @@ void answer_triangle(const PacketCase& one_case, const BasicPacketRays<Bounds>& 
     }
     PacketTriangles in_double;
     in_double.set_all(pack, 0);
+    const PacketTriangles::Planes same(in_double, rays, 0);
     constexpr uint32_t kStep = PacketTriangles::kStep;
     HWY_ALIGN double double_lower[kPacketSize], double_upper[kPacketSize];
     uint32_t double_sure = 0;
     for (uint32_t first = 0; first < kPacketSize; first += kStep) {
-        const auto t = in_double.interval(rays, first);
+        const auto t = PacketTriangles::interval(same, rays, first);
         hn::Store(t.lower, PacketTriangles::D(), double_lower + first);
         hn::Store(t.upper, PacketTriangles::D(), double_upper + first);
         double_sure |= mask_bits(PacketTriangles::D(), t.is_sure) << first;

@@ -286,9 +286,14 @@ struct BasicPacketRays {
 
 using PacketRays = BasicPacketRays<PacketBounds>;
 
-/// Triangles in double, one for each ray of a packet.
+/// Triangles in double, one for each ray of a packet, or one for all.
 struct PacketTriangles {
+    using D = hn::CappedTag<double, kPacketSize>;
+    using V = hn::Vec<D>;
+    static constexpr uint32_t kStep = hn::MaxLanes(D());
+
     HWY_ALIGN float corners[3][3][kPacketSize];
+    bool are_same = false;  ///< one for all: kStep times
 
     template <uint32_t Size>
     HWY_INLINE void set(uint32_t i, const TrianglePack<Size>& pack, uint32_t lane) {
@@ -304,23 +309,46 @@ struct PacketTriangles {
     }
     template <uint32_t Size>
     HWY_INLINE void set_all(const TrianglePack<Size>& pack, uint32_t lane) {
+        are_same = true;
         fill_corner(pack, lane, 0);
         fill_corner(pack, lane, 1);
         fill_corner(pack, lane, 2);
     }
     template <uint32_t Size>
     HWY_INLINE void fill_corner(const TrianglePack<Size>& pack, uint32_t lane, uint32_t corner) {
-        const PacketTag d;
-        for (uint32_t i = 0; i < kPacketSize; i += kLanes) {
-            hn::Store(hn::Set(d, pack.corners[corner][0][lane]), d, corners[corner][0] + i);
-            hn::Store(hn::Set(d, pack.corners[corner][1][lane]), d, corners[corner][1] + i);
-            hn::Store(hn::Set(d, pack.corners[corner][2][lane]), d, corners[corner][2] + i);
-        }
+        const hn::Rebind<float, D> df;
+        hn::Store(hn::Set(df, pack.corners[corner][0][lane]), df, corners[corner][0]);
+        hn::Store(hn::Set(df, pack.corners[corner][1][lane]), df, corners[corner][1]);
+        hn::Store(hn::Set(df, pack.corners[corner][2][lane]), df, corners[corner][2]);
     }
-    using D = hn::CappedTag<double, kPacketSize>;
-    using V = hn::Vec<D>;
-    static constexpr uint32_t kStep = hn::MaxLanes(D());
 
+    /// What of the interval depends on the triangles alone, those from `first` on.
+    struct Planes {
+        V nx, ny, nz, sum_x, sum_y, sum_z, numerator, numerator_error;
+
+        template <class Bounds>
+        HWY_INLINE Planes(const PacketTriangles& of, const BasicPacketRays<Bounds>& rays, uint32_t first) {
+            const D d;
+            const V x = of.corner(0, 0, first), y = of.corner(0, 1, first), z = of.corner(0, 2, first);
+            const V e1x = hn::Sub(of.corner(1, 0, first), x), e1y = hn::Sub(of.corner(1, 1, first), y),
+                    e1z = hn::Sub(of.corner(1, 2, first), z), e2x = hn::Sub(of.corner(2, 0, first), x),
+                    e2y = hn::Sub(of.corner(2, 1, first), y), e2z = hn::Sub(of.corner(2, 2, first), z);
+            const V nx1 = hn::Mul(e1y, e2z), nx2 = hn::Mul(e1z, e2y), ny1 = hn::Mul(e1z, e2x),
+                    ny2 = hn::Mul(e1x, e2z), nz1 = hn::Mul(e1x, e2y), nz2 = hn::Mul(e1y, e2x);
+            nx = hn::Sub(nx1, nx2);
+            ny = hn::Sub(ny1, ny2);
+            nz = hn::Sub(nz1, nz2);
+            sum_x = hn::Add(hn::Abs(nx1), hn::Abs(nx2));
+            sum_y = hn::Add(hn::Abs(ny1), hn::Abs(ny2));
+            sum_z = hn::Add(hn::Abs(nz1), hn::Abs(nz2));
+            const V ax = hn::Sub(x, hn::Set(d, double(rays.origin[0]))),
+                    ay = hn::Sub(y, hn::Set(d, double(rays.origin[1]))),
+                    az = hn::Sub(z, hn::Set(d, double(rays.origin[2])));
+            numerator = dot(ax, ay, az, nx, ny, nz);
+            numerator_error = hn::Mul(hn::Set(d, 8.0 * Bounds::kDoubleTermUnit),
+                                      dot(hn::Abs(ax), hn::Abs(ay), hn::Abs(az), sum_x, sum_y, sum_z));
+        }
+    };
     /// t of the rays from `first` on and their triangles' planes; the interval holds where `is_sure` does.
     struct Interval {
         V lower, upper;
@@ -328,30 +356,18 @@ struct PacketTriangles {
     };
     /// As interval_of_t does.
     template <class Bounds>
-    HWY_INLINE Interval interval(const BasicPacketRays<Bounds>& rays, uint32_t first) const {
+    HWY_INLINE static Interval interval(const Planes& of, const BasicPacketRays<Bounds>& rays,
+                                        uint32_t first) {
         const D d;
-        const V x = corner(0, 0, first), y = corner(0, 1, first), z = corner(0, 2, first);
-        const V e1x = hn::Sub(corner(1, 0, first), x), e1y = hn::Sub(corner(1, 1, first), y),
-                e1z = hn::Sub(corner(1, 2, first), z), e2x = hn::Sub(corner(2, 0, first), x),
-                e2y = hn::Sub(corner(2, 1, first), y), e2z = hn::Sub(corner(2, 2, first), z);
-        const V nx1 = hn::Mul(e1y, e2z), nx2 = hn::Mul(e1z, e2y), ny1 = hn::Mul(e1z, e2x),
-                ny2 = hn::Mul(e1x, e2z), nz1 = hn::Mul(e1x, e2y), nz2 = hn::Mul(e1y, e2x);
-        const V nx = hn::Sub(nx1, nx2), ny = hn::Sub(ny1, ny2), nz = hn::Sub(nz1, nz2);
-        const V sum_x = hn::Add(hn::Abs(nx1), hn::Abs(nx2)), sum_y = hn::Add(hn::Abs(ny1), hn::Abs(ny2)),
-                sum_z = hn::Add(hn::Abs(nz1), hn::Abs(nz2));
-        const V ax = hn::Sub(x, hn::Set(d, double(rays.origin[0]))),
-                ay = hn::Sub(y, hn::Set(d, double(rays.origin[1]))),
-                az = hn::Sub(z, hn::Set(d, double(rays.origin[2])));
         const V dx = in_double(rays.directions[0] + first), dy = in_double(rays.directions[1] + first),
                 dz = in_double(rays.directions[2] + first);
-        const V numerator = dot(ax, ay, az, nx, ny, nz), denominator = dot(dx, dy, dz, nx, ny, nz);
-        const V numerator_error = hn::Mul(hn::Set(d, 8.0 * Bounds::kDoubleTermUnit),
-                                          dot(hn::Abs(ax), hn::Abs(ay), hn::Abs(az), sum_x, sum_y, sum_z));
-        const V denominator_error = hn::Mul(hn::Set(d, 7.0 * Bounds::kDoubleTermUnit),
-                                            dot(hn::Abs(dx), hn::Abs(dy), hn::Abs(dz), sum_x, sum_y, sum_z));
+        const V denominator = dot(dx, dy, dz, of.nx, of.ny, of.nz);
+        const V denominator_error =
+            hn::Mul(hn::Set(d, 7.0 * Bounds::kDoubleTermUnit),
+                    dot(hn::Abs(dx), hn::Abs(dy), hn::Abs(dz), of.sum_x, of.sum_y, of.sum_z));
         const V inverse = hn::Div(hn::Set(d, 1.0), denominator);
-        const V quotient = hn::Mul(numerator, inverse), size = hn::Abs(quotient);
-        const V error = hn::MulAdd(hn::MulAdd(size, denominator_error, numerator_error),
+        const V quotient = hn::Mul(of.numerator, inverse), size = hn::Abs(quotient);
+        const V error = hn::MulAdd(hn::MulAdd(size, denominator_error, of.numerator_error),
                                    hn::Mul(hn::Abs(inverse), hn::Set(d, 1.0 + 0x1p-38)),
                                    hn::Mul(hn::Set(d, 3.0 * Bounds::kDoubleTermUnit), size));
         return {hn::Sub(quotient, error), hn::Add(quotient, error),
@@ -361,9 +377,11 @@ struct PacketTriangles {
     template <class Bounds>
     HWY_INLINE uint32_t round_t(const BasicPacketRays<Bounds>& rays, float* t) const {
         uint32_t right = 0;
+        Planes planes(*this, rays, 0);
         for (uint32_t first = 0; first < kPacketSize; first += kStep) {
+            if (first > 0 && !are_same) planes = Planes(*this, rays, first);
             const hn::Rebind<float, D> df;
-            const Interval t_here = interval(rays, first);
+            const Interval t_here = interval(planes, rays, first);
             const auto lower = hn::DemoteTo(df, t_here.lower), upper = hn::DemoteTo(df, t_here.upper);
             hn::Store(upper, df, t + first);
             right |= (mask_bits(df, hn::Eq(lower, upper)) & mask_bits(D(), t_here.is_sure)) << first;

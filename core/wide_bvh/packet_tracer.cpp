@@ -264,11 +264,13 @@ HWY_INLINE uint32_t push_met(const typename WideBvh<Width>::Node& node, uint32_t
         const auto entries =
             hn::TableLookupLanes(hn::IfThenElse(is_met, entry, infinity), hn::IndicesFromVec(d, lanes));
         const auto is_pushed = hn::Lt(entries, infinity);
+        const uint32_t ranks = mask_bits(d, is_pushed);
         const auto children = hn::BitCast(d, hn::Or(lanes, hn::Set(du, index * Width)));
         hn::StoreU(hn::Compress(entries, is_pushed), d, stack.entries + count);
         hn::StoreU(hn::BitCast(du, hn::Compress(children, is_pushed)), du, stack.children + count);
-        count += static_cast<uint32_t>(std::popcount(met)) - 1;
-        return stack.children[count] % Width;
+        count += static_cast<uint32_t>(std::popcount(ranks)) - 1;
+        // The nearest does not wait for the stack's memory.
+        return order >> (kBits * (Width - static_cast<uint32_t>(std::bit_width(ranks)))) & (Width - 1);
     } else {
         HWY_ALIGN float entries[Width];
         uint32_t met = 0;
