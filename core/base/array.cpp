@@ -17,7 +17,15 @@ void* allocate(size_t size) { return ::operator new(size, kAlignment); }
 void free_memory(void* memory) { ::operator delete(memory, kAlignment); }
 void release() {}
 #else
+/// Nothing that is kept is given back before all there is exceeds kMostKept.
+bool keep_all() {
+    constexpr intptr_t kMostKept = intptr_t{2} << 30;
+    scalable_allocation_mode(TBBMALLOC_SET_HUGE_SIZE_THRESHOLD, static_cast<intptr_t>(kLargePage));
+    return scalable_allocation_mode(TBBMALLOC_SET_SOFT_HEAP_LIMIT, kMostKept) == TBBMALLOC_OK;
+}
+
 void* allocate(size_t size) {
+    [[maybe_unused]] static const bool is_kept = keep_all();
     void* const memory = scalable_aligned_malloc(size, kLargePage);
     if (memory == nullptr) throw std::bad_alloc();
     return memory;

@@ -40,7 +40,7 @@ PartRoot MortonPartBuild::build(const MortonOrder& order, std::span<const uint32
 
 void MortonPartBuild::fill_packs(const MortonOrder& order, std::span<const uint32_t> first,
                                  const PackFiller& filler, std::span<Pack8> packs) {
-    constexpr size_t kAhead = 40, kCornersAhead = 20;
+    constexpr size_t kAhead = 64, kCornersAhead = 32;
     const size_t end = order.keys.size();
     for (size_t i = 0; i < packs.size(); ++i) {
         PackPrims prims;

@@ -30,10 +30,10 @@ PartCosts part_costs() {
             static_cast<uint32_t>(collapse.leaf_size) / Pack8::kSize};
 }
 
-/// Whether each reference is a triangle, and each triangle of the mesh a reference: they stand in the same
-/// order.
+/// Whether each reference is a triangle, and each triangle of the mesh a reference, in the same order: where
+/// they are as many, as every triangle has one at least.
 bool are_whole(const Mesh& mesh, std::span<const PrimRef> refs) {
-    return refs.size() == mesh.triangle_count() && !has_pieces(refs);
+    return refs.size() == mesh.triangle_count();
 }
 
 std::vector<TopNode> parts_of(std::span<const TopNode> top) {
