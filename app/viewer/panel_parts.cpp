@@ -7,6 +7,23 @@
 
 namespace boxwood::panel {
 
+namespace {
+
+/// As much of a text's beginning as fits into a width, with dots where something is left out.
+std::string beginning_of(const std::string& text, float width) {
+    const auto is_inside_character = [&](size_t i) {
+        return (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80;
+    };
+    std::string shown = text;
+    for (size_t kept = text.size(); kept > 0 && ImGui::CalcTextSize(shown.c_str()).x > width;) {
+        --kept;
+        if (!is_inside_character(kept)) shown = text.substr(0, kept) + "...";
+    }
+    return shown;
+}
+
+}  // namespace
+
 void tooltip(const Context& context, const std::string& text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     ImGui::BeginTooltip();
@@ -47,9 +64,11 @@ void colored(const Vec4& color, const std::string& text) {
 
 void value_row(const Context& context, const char* name, const std::string& value, const std::string& tip) {
     ImGui::BeginGroup();
-    colored(context.colors.dim, name);
+    const float value_x = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x;
+    const float room = value_x - ImGui::GetStyle().ItemSpacing.x - ImGui::GetCursorPosX();
+    colored(context.colors.dim, beginning_of(name, room));
     ImGui::SameLine();
-    ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x);
+    ImGui::SetCursorPosX(value_x);
     ImGui::TextUnformatted(value.c_str());
     ImGui::EndGroup();
     tooltip(context, tip);

@@ -28,7 +28,8 @@ void heading(const Context& context, const char* title, const std::string& note 
 /// Dim, small, wrapped.
 void note(const Context& context, const std::string& text);
 void colored(const Vec4& color, const std::string& text);
-/// A name, and its value at the right end of the line, with a tooltip for both.
+/// A name, its beginning where the panel is too narrow, and its value at the right end of the line, with a
+/// tooltip for both.
 void value_row(const Context& context, const char* name, const std::string& value, const std::string& tip);
 /// A check box for a switch of the state; marked if it is not its default, put back by a right click.
 void toggle(const Context& context, const char* label, bool& value, bool default_value, const char* tip);
