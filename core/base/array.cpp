@@ -8,15 +8,21 @@
 
 namespace boxwood {
 
-namespace {
-
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+
 // Sanitizers watch what comes from operator new.
+namespace {
 constexpr std::align_val_t kAlignment{kLargePage};
 void* allocate(size_t size) { return ::operator new(size, kAlignment); }
-void free_memory(void* memory) { ::operator delete(memory, kAlignment); }
-void release() {}
+}  // namespace
+
+void free_large(void* memory) { ::operator delete(memory, kAlignment); }
+void release_kept_memory() {}
+
 #else
+
+namespace {
+
 /// Nothing that is kept is given back before all there is exceeds kMostKept.
 bool keep_all() {
     constexpr intptr_t kMostKept = intptr_t{2} << 30;
@@ -30,11 +36,13 @@ void* allocate(size_t size) {
     if (memory == nullptr) throw std::bad_alloc();
     return memory;
 }
-void free_memory(void* memory) { scalable_aligned_free(memory); }
-void release() { scalable_allocation_command(TBBMALLOC_CLEAN_ALL_BUFFERS, nullptr); }
-#endif
 
 }  // namespace
+
+void free_large(void* memory) { scalable_aligned_free(memory); }
+void release_kept_memory() { scalable_allocation_command(TBBMALLOC_CLEAN_ALL_BUFFERS, nullptr); }
+
+#endif
 
 void* allocate_large(size_t size) {
     void* const memory = allocate(size);
@@ -44,9 +52,5 @@ void* allocate_large(size_t size) {
 #endif
     return memory;
 }
-
-void free_large(void* memory) { free_memory(memory); }
-
-void release_kept_memory() { release(); }
 
 }  // namespace boxwood

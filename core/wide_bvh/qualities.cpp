@@ -5,7 +5,6 @@
 
 #include "core/base/assert.h"
 #include "core/bvh/binned_sah.h"
-#include "core/bvh/leaf_duplicates.h"
 #include "core/bvh/morton.h"
 #include "core/bvh/optimize.h"
 #include "core/bvh/spatial_splits.h"

@@ -68,34 +68,32 @@ inline FloatCase with_large_roundings_of_t(Rng& rng) {
     return result;
 }
 
-/// A plane across x whose parameter is p/d, but for rounding.
-inline FloatCase from_zero(Rng& rng) {
+/// A ray along x, from ox, and a plane across it.
+inline FloatCase across_x(float ox, float px, float dx) {
     FloatCase result;
-    const float px = rng.next(1.0f, 2.0f), dx = rng.next(1.0f, 2.0f);
-    result.ray.direction = {dx, 0.0f, 0.0f};
-    result.box = {{px, -0.001f, -0.001f}, {px, 0.001f, 0.001f}};
-    return result;
-}
-
-/// A plane across x, so near that of its parameter little is left but the roundings of the terms. These are
-/// just above 1/2.
-inline FloatCase beside_plane(Rng& rng) {
-    FloatCase result;
-    const float px = one(rng), dx = 2.0f - 0.03f * rng.next();
-    result.ray.origin.x = px - 0x1p-12f * one(rng);
-    result.ray.direction = {dx, 0.0f, 0.0f};
-    result.box = {{px, -0.001f, -0.001f}, {px, 0.001f, 0.001f}};
-    return result;
-}
-
-/// A plane across x, 0 between it and the origin. 1/d is just above 1/2.
-inline FloatCase before_plane(Rng& rng) {
-    FloatCase result;
-    const float ox = -one(rng), px = one(rng), dx = 2.0f - 0.03f * rng.next();
     result.ray.origin.x = ox;
     result.ray.direction = {dx, 0.0f, 0.0f};
     result.box = {{px, -0.001f, -0.001f}, {px, 0.001f, 0.001f}};
     return result;
+}
+
+/// A plane whose parameter is p/d, but for rounding.
+inline FloatCase from_zero(Rng& rng) {
+    const float px = rng.next(1.0f, 2.0f), dx = rng.next(1.0f, 2.0f);
+    return across_x(0.0f, px, dx);
+}
+
+/// A plane so near that of its parameter little is left but the roundings of the terms. These are just above
+/// 1/2.
+inline FloatCase beside_plane(Rng& rng) {
+    const float px = one(rng), dx = 2.0f - 0.03f * rng.next();
+    return across_x(px - 0x1p-12f * one(rng), px, dx);
+}
+
+/// A plane, 0 between it and the origin. 1/d is just above 1/2.
+inline FloatCase before_plane(Rng& rng) {
+    const float ox = -one(rng), px = one(rng), dx = 2.0f - 0.03f * rng.next();
+    return across_x(ox, px, dx);
 }
 
 /// A ray in the upper face of a flat box at 0, to its far end; its component across is too small to count.
