@@ -12,12 +12,12 @@
 #include "core/base/rng.h"
 #include "core/base/timer.h"
 #include "core/measure/verify.h"
+#include "core/render/trace_schedule.h"
 
 namespace boxwood::bench {
 
 namespace {
 
-constexpr uint32_t kTile = 16, kBlock = 4;  ///< pixels along a side: the renderer's tile, a packet
 /// Rounds over all contestants until the time is used.
 void time_rounds(std::span<const Contestant> contestants, const RaySet& set, int threads,
                  const PeerSettings& settings, std::span<PeerRow> rows, Task& task) {
@@ -107,23 +107,13 @@ std::vector<PeerRow> rows_for(const RaySet& set, const Scene& scene, std::span<c
     return rows;
 }
 
-/// Appends the pixels of a square of a picture of `size` by `size` pixels, in blocks of 4 by 4.
-void append_tile(std::vector<uint32_t>& pixels, uint32_t left, uint32_t top, uint32_t side, uint32_t size) {
-    if (left >= size || top >= size) return;
-    if (side > kBlock) {
-        for (uint32_t y = 0; y < side; y += kBlock)
-            for (uint32_t x = 0; x < side; x += kBlock) append_tile(pixels, left + x, top + y, kBlock, size);
-        return;
-    }
-    for (uint32_t y = top; y < std::min(top + side, size); ++y)
-        for (uint32_t x = left; x < std::min(left + side, size); ++x) pixels.push_back(y * size + x);
-}
-
 /// Pixels of a square picture, tile by tile as the renderer takes them.
-std::vector<uint32_t> tile_order(uint32_t size) {
+std::vector<uint32_t> tile_order(int size) {
+    constexpr int kTile = 16;
     std::vector<uint32_t> pixels;
-    for (uint32_t y = 0; y < size; y += kTile)
-        for (uint32_t x = 0; x < size; x += kTile) append_tile(pixels, x, y, kTile, size);
+    const auto append = [&](int x, int y) { pixels.push_back(static_cast<uint32_t>(y * size + x)); };
+    for (int y = 0; y < size; y += kTile)
+        for (int x = 0; x < size; x += kTile) for_each_pixel({x, y}, kTile, 1, size, size, append);
     return pixels;
 }
 
@@ -150,7 +140,7 @@ std::vector<RaySet> peer_rays(const Structure& structure, const Scene& scene, co
     sets.push_back({kRayKinds[0], Casting::Closest, primary});
     sets.push_back({kRayKinds[1], Casting::Closest, bounced_rays(scene.mesh, primary, hits)});
     sets.push_back({kRayKinds[2], Casting::Any, shadow_rays(scene.mesh, primary, hits, light)});
-    RaySet packets{kRayKinds[3], Casting::Packets, {}, tile_order(static_cast<uint32_t>(size))};
+    RaySet packets{kRayKinds[3], Casting::Packets, {}, tile_order(static_cast<int>(size))};
     for (const uint32_t pixel : packets.pixels) packets.rays.push_back(primary[pixel]);
     sets.push_back(std::move(packets));
     std::erase_if(sets, [&](const RaySet& set) {

@@ -58,9 +58,9 @@ enum class PacketVariant {
     NoUnderflow
 };
 
-/// Sixteen rays of one origin, a triangle and a box.
+/// Two packets of rays of one origin, a triangle and a box.
 struct PacketCase {
-    std::array<Ray, 16> rays;
+    std::array<Ray, 32> rays;
     Triangle triangle;
     Box box;
 };
@@ -75,7 +75,7 @@ struct PacketAnswer {
     float entry = 0.0f, exit = 0.0f;  ///< of the frustum
     bool is_box_met = false;          ///< by any of the rays
 };
-using PacketAnswers = std::array<PacketAnswer, 16>;
+using PacketAnswers = std::array<PacketAnswer, 32>;
 
 }  // namespace boxwood
 #endif
@@ -90,14 +90,16 @@ void answer_packets(std::span<const PacketCase>, PacketVariant, std::span<Packet
 
 #else
 
+using PartOfAnswers = std::span<PacketAnswer, kPacketSize>;
+
 template <class Bounds>
-void answer_box(const PacketCase& one_case, const BasicPacketRays<Bounds>& rays, PacketAnswers& answers) {
+void answer_box(const PacketCase& one_case, const BasicPacketRays<Bounds>& rays,
+                const Frustum<4, Bounds>& frustum, PartOfAnswers answers) {
     HWY_ALIGN float planes[6][4], entries[4], exits[4];
     for (int axis = 0; axis < 3; ++axis) {
         std::fill_n(planes[axis], 4, one_case.box.lower[axis]);
         std::fill_n(planes[3 + axis], 4, one_case.box.upper[axis]);
     }
-    const Frustum<4> frustum(rays);
     const hn::CappedTag<float, 4> d;
     hn::Store(frustum.entry(planes[0]), d, entries);
     hn::Store(frustum.exit(planes[0], rays.t_max.largest()), d, exits);
@@ -111,14 +113,14 @@ void answer_box(const PacketCase& one_case, const BasicPacketRays<Bounds>& rays,
 
 template <class Bounds>
 void answer_triangle(const PacketCase& one_case, const BasicPacketRays<Bounds>& rays,
-                     PacketAnswers& answers) {
+                     const Frustum<4, Bounds>& frustum, PartOfAnswers answers) {
     TrianglePack<4> pack{};
     const Vec3 corners[3] = {one_case.triangle.a, one_case.triangle.b, one_case.triangle.c};
     for (int corner = 0; corner < 3; ++corner)
         for (int axis = 0; axis < 3; ++axis)
             std::fill_n(pack.corners[corner][axis], 4, corners[corner][axis]);
-    const PackEdges<4> edges(pack, 0, rays);
-    const PackPlanes<4> planes(edges, rays);
+    const PackEdges<4> edges(pack, 0, frustum);
+    const PackPlanes<4> planes(edges, frustum);
     const PacketTag d;
     const PacketVector bound = hn::Set(d, edges.bounds[0]);
     HWY_ALIGN float lower[kPacketSize], upper[kPacketSize];
@@ -161,12 +163,21 @@ void answer_triangle(const PacketCase& one_case, const BasicPacketRays<Bounds>& 
 template <class Bounds>
 HWY_NOINLINE void answer_with(std::span<const PacketCase> cases, std::span<PacketAnswers> answers) {
     for (size_t i = 0; i < cases.size(); ++i) {
-        const RayLanes lanes(cases[i].rays.data());
-        const BasicPacketRays<Bounds> rays(cases[i].rays.data(), lanes, FloatScene(cases[i].box), 0xffff);
         answers[i] = {};
-        if (rays.members == 0) continue;
-        answer_triangle(cases[i], rays, answers[i]);
-        answer_box(cases[i], rays, answers[i]);
+        std::array<BasicPacketRays<Bounds>, 2> packets;
+        for (size_t k = 0; k < packets.size(); ++k) {
+            const Ray* const rays = cases[i].rays.data() + k * kPacketSize;
+            packets[k] = BasicPacketRays<Bounds>(rays, RayLanes(rays), FloatScene(cases[i].box), 0xffff);
+        }
+        if (packets[0].members == 0) continue;
+        const bool are_one = packets[1].members != 0 && packets[1].fits(packets[0]);
+        const std::span searched = std::span(packets).first(are_one ? 2 : 1);
+        const Frustum<4, Bounds> frustum(searched);
+        for (size_t k = 0; k < searched.size(); ++k) {
+            const PartOfAnswers part(answers[i].data() + k * kPacketSize, kPacketSize);
+            answer_triangle(cases[i], packets[k], frustum, part);
+            answer_box(cases[i], packets[k], frustum, part);
+        }
     }
 }
 
@@ -213,7 +224,7 @@ namespace {
 
 HWY_EXPORT(answer_packets);
 
-/// One ray sixteen times. A case without a box has the triangle's.
+/// One ray for all. A case without a box has the triangle's.
 PacketCase packet_of(const FloatCase& one_case) {
     PacketCase packet{{}, one_case.triangle, one_case.box};
     if (packet.box.is_empty()) packet.box = one_case.triangle.bounds();
@@ -279,7 +290,7 @@ int wrong_count(const std::vector<PacketCase>& cases, PacketVariant variant, IsW
     HWY_DYNAMIC_DISPATCH(answer_packets)(cases, variant, answers);
     int wrong = 0;
     for (size_t i = 0; i < cases.size(); ++i) {
-        const std::array<Ray, 16>& rays = cases[i].rays;
+        const auto& rays = cases[i].rays;
         const size_t count = rays[1].direction == rays[0].direction ? 1 : rays.size();
         for (size_t k = 0; k < count; ++k)
             wrong += answers[i][k].is_usable && is_wrong(cases[i], rays[k], answers[i][k]) ? 1 : 0;
@@ -369,7 +380,7 @@ TEST(PacketBounds, ReplacedComponentsNeedTheirPad) {
 TEST(PacketBounds, HoldWhereRoundingsAreLarge) {
     const auto expect_right = [](FloatCase (*make)(Rng&), int count, uint64_t seed, IsWrong is_wrong) {
         const std::vector<PacketCase> equal = packets_of(make, count, seed),
-                                      spread = spread_packets_of(make, count / 16, seed + 100);
+                                      spread = spread_packets_of(make, count / 32, seed + 100);
         for_each_vector_target(HWY_TARGETS, [&](const std::string& name, bool) {
             EXPECT_EQ(wrong_count(equal, PacketVariant::Derived, is_wrong), 0) << name << seed;
             EXPECT_EQ(wrong_count(spread, PacketVariant::Derived, is_wrong), 0) << name << seed;

@@ -35,19 +35,32 @@ struct TraceTile {
 /// Tiles that cover the picture, from its middle outwards.
 std::vector<TraceTile> tiles_from_middle(int width, int height, int tile_size);
 
-/// Neighbours that are cast together stand in blocks of so many traced pixels along a side.
-inline constexpr int kBlock = 4;
+/// Pixels from (left, top) to before (right, bottom) in steps.
+struct PixelArea {
+    int left, top, right, bottom, step;
 
-/// Calls visit(x, y) for every step-th pixel of a tile, block by block, in each row by row. The tile may
-/// stick out of the picture.
+    /// Calls visit(area) for its squares of `side` traced pixels along a side, row by row; those at the right
+    /// and at the bottom may be smaller.
+    template <class Visit>
+    void for_each_square(int side, Visit&& visit) const {
+        const int size = side * step;
+        for (int y = top; y < bottom; y += size)
+            for (int x = left; x < right; x += size)
+                visit(PixelArea{x, y, std::min(x + size, right), std::min(y + size, bottom), step});
+    }
+};
+
+/// Calls visit(x, y) for every step-th pixel of a tile, which may stick out of the picture. Neighbours, which
+/// are cast together, follow each other: blocks of 4 x 4 traced pixels, row by row, in blocks of 8 x 8.
 template <class Visit>
 void for_each_pixel(const TraceTile& tile, int tile_size, int step, int width, int height, Visit&& visit) {
-    const int side = kBlock * step;
-    const int right = std::min(tile.x + tile_size, width), bottom = std::min(tile.y + tile_size, height);
-    for (int top = tile.y; top < bottom; top += side)
-        for (int left = tile.x; left < right; left += side)
-            for (int y = top; y < std::min(top + side, bottom); y += step)
-                for (int x = left; x < std::min(left + side, right); x += step) visit(x, y);
+    const PixelArea area{tile.x, tile.y, std::min(tile.x + tile_size, width),
+                         std::min(tile.y + tile_size, height), step};
+    area.for_each_square(8, [&](const PixelArea& eight) {
+        eight.for_each_square(4, [&](const PixelArea& four) {
+            four.for_each_square(1, [&](const PixelArea& pixel) { visit(pixel.left, pixel.top); });
+        });
+    });
 }
 
 /// The pass's pixels in that tile, y * width + x, in the order of for_each_pixel; replaces what is in

@@ -31,7 +31,7 @@ namespace boxwood {
 /// both rounded: 3u |t| with the ends instead of 2u, and eD < 2^-40 |D| is asked for, so that |D| - eD is |D|
 /// to second order.
 ///
-/// The packet as one. With r the inverse of any ray, r' that of the least and r" that of the largest size, (p
+/// Packets as one. With r the inverse of any ray, r' that of the least and r" that of the largest size, (p
 /// - o) r is at least (p - o) r' and at most (p - o) r" where it is not negative. A near plane where it is
 /// negative lies before t = 0, which is a lower bound of its own; behind a far plane no ray meets the box.
 /// The pad grows with |r| and is taken at r", with what moved components add, so it covers the roundings of

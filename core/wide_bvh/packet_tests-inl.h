@@ -11,6 +11,7 @@
 
 #include <bit>
 #include <cstring>
+#include <span>
 
 #include "core/base/ray.h"
 #include "core/structure/filter.h"
@@ -115,15 +116,15 @@ struct BasicPacketRays {
     PacketFloats shear_x, shear_y;
     HWY_ALIGN float directions[3][kPacketSize];
     float origin[3];
-    float reaches[3];      ///< distance of the scene's farther plane, by axis
-    float pads[3];         ///< of the slabs at most, to be multiplied with |inverse|
-    float shear_sizes[2];  ///< largest |shear_x| and |shear_y|
-    uint32_t octant;       ///< bit axis set: the directions' sign bits are
-    uint32_t x, y, z;      ///< axes; z is the one with the largest |d|
+    float reaches[3];  ///< distance of the scene's farther plane, by axis
+    float pads[3];     ///< of the slabs at most, to be multiplied with |inverse|
+    uint32_t octant;   ///< bit axis set: the directions' sign bits are
+    uint32_t x, y, z;  ///< axes; z is the one with the largest |d|
     /// Rays that share origin, octant and z with the first of those asked for, are valid, and for which the
     /// bounds hold; the others repeat that one. 0: that one itself is not among them, and nothing is set.
     uint32_t members;
 
+    BasicPacketRays() = default;  ///< sets nothing
     /// Of those rays whose bits are set in `wanted`, one at least.
     HWY_INLINE BasicPacketRays(const Ray* rays, const RayLanes& lanes, const FloatScene& scene,
                                uint32_t wanted) {
@@ -240,15 +241,15 @@ struct BasicPacketRays {
         }
     }
     HWY_INLINE void set_shears() {
-        PacketFloats x_sizes, y_sizes;
         for (uint32_t i = 0; i < kVectors; ++i) {
             shear_x[i] = hn::Div(direction(x, i), direction(z, i));
             shear_y[i] = hn::Div(direction(y, i), direction(z, i));
-            x_sizes[i] = hn::Abs(shear_x[i]);
-            y_sizes[i] = hn::Abs(shear_y[i]);
         }
-        shear_sizes[0] = x_sizes.largest();
-        shear_sizes[1] = y_sizes.largest();
+    }
+    /// Whether the rays of both can be searched for as one.
+    HWY_INLINE bool fits(const BasicPacketRays& other) const {
+        return origin[0] == other.origin[0] && origin[1] == other.origin[1] && origin[2] == other.origin[2] &&
+               octant == other.octant && z == other.z;
     }
 
     /// Whether any ray meets the box of a child at its limit or before.
@@ -401,32 +402,54 @@ private:
     }
 };
 
-/// All rays of a packet as one, as vectors over the lanes of a node: no box that a ray meets is missed, nor
-/// entered later than by that ray. See PacketBounds.
-template <uint32_t Width>
+/// All rays of packets that fit each other as one, as vectors over the lanes of a node: no box that a ray
+/// meets is missed, nor entered later than by that ray. See PacketBounds.
+template <uint32_t Width, class Bounds = PacketBounds>
 struct Frustum {
+    using Packets = std::span<const BasicPacketRays<Bounds>>;
     using D = hn::CappedTag<float, Width>;
     using V = hn::Vec<D>;
     V near_inverse[3], far_inverse[3], near_offset[3], far_offset[3];
     Planes<Width> at;
+    float origin[3];
+    uint32_t x, y, z;      ///< axes, as in the packets
+    float shear_sizes[2];  ///< largest |shear_x| and |shear_y|
 
-    template <class Bounds>
-    HWY_INLINE explicit Frustum(const BasicPacketRays<Bounds>& rays) : at(rays.octant) {
-        set_axis(rays, 0);
-        set_axis(rays, 1);
-        set_axis(rays, 2);
+    HWY_INLINE explicit Frustum(Packets packets)
+        : at(packets[0].octant), x(packets[0].x), y(packets[0].y), z(packets[0].z) {
+        set_axis(packets, 0);
+        set_axis(packets, 1);
+        set_axis(packets, 2);
+        PacketVector x_size = hn::Zero(PacketTag()), y_size = x_size;
+        for (const auto& packet : packets) {
+            for (uint32_t i = 0; i < kVectors; ++i) {
+                x_size = hn::Max(x_size, hn::Abs(packet.shear_x[i]));
+                y_size = hn::Max(y_size, hn::Abs(packet.shear_y[i]));
+            }
+        }
+        shear_sizes[0] = hn::GetLane(hn::MaxOfLanes(PacketTag(), x_size));
+        shear_sizes[1] = hn::GetLane(hn::MaxOfLanes(PacketTag(), y_size));
     }
-    template <class Bounds>
-    HWY_INLINE void set_axis(const BasicPacketRays<Bounds>& rays, uint32_t axis) {
+    HWY_INLINE void set_axis(Packets packets, uint32_t axis) {
         const D d;
-        const float least = rays.inverse[axis].least(), largest = rays.inverse[axis].largest();
-        const bool is_negative = (rays.octant >> axis & 1) != 0;
+        const auto& first = packets[0];
+        origin[axis] = first.origin[axis];
+        PacketVector all_least = first.inverse[axis][0], all_largest = all_least;
+        for (const auto& packet : packets) {
+            for (uint32_t i = 0; i < kVectors; ++i) {
+                all_least = hn::Min(all_least, packet.inverse[axis][i]);
+                all_largest = hn::Max(all_largest, packet.inverse[axis][i]);
+            }
+        }
+        const float least = hn::GetLane(hn::MinOfLanes(PacketTag(), all_least));
+        const float largest = hn::GetLane(hn::MaxOfLanes(PacketTag(), all_largest));
+        const bool is_negative = (first.octant >> axis & 1) != 0;
         const float near = is_negative ? largest : least, far = is_negative ? least : largest;
-        const float pad = std::abs(far) * rays.pads[axis];
+        const float pad = std::abs(far) * first.pads[axis];
         near_inverse[axis] = hn::Set(d, near);
         far_inverse[axis] = hn::Set(d, far);
-        near_offset[axis] = hn::Set(d, -(rays.origin[axis] * near) - pad);
-        far_offset[axis] = hn::Set(d, -(rays.origin[axis] * far) + pad);
+        near_offset[axis] = hn::Set(d, -(origin[axis] * near) - pad);
+        far_offset[axis] = hn::Set(d, -(origin[axis] * far) + pad);
     }
     HWY_INLINE V entry(const float* planes) const {
         const D d;
@@ -453,7 +476,7 @@ struct PackVectors {
 
     HWY_INLINE PackVectors(V in_x, V in_y, V in_z) : x(in_x), y(in_y), z(in_z) {}
     template <class Bounds>
-    HWY_INLINE PackVectors(const float corners[3][Size], uint32_t first, const BasicPacketRays<Bounds>& rays)
+    HWY_INLINE PackVectors(const float corners[3][Size], uint32_t first, const Frustum<Size, Bounds>& rays)
         : x(hn::Load(D(), corners[rays.x] + first)),
           y(hn::Load(D(), corners[rays.y] + first)),
           z(hn::Load(D(), corners[rays.z] + first)) {}
@@ -468,7 +491,7 @@ struct PackVectors {
 };
 
 /// What the triangles of a pack, or of the part of it that begins at lane `first`, are to all rays of a
-/// packet; see PacketBounds.
+/// frustum; see PacketBounds.
 template <uint32_t Size>
 struct PackEdges {
     using Vectors = PackVectors<Size>;
@@ -480,7 +503,7 @@ struct PackEdges {
     Vectors a, ab, bc;                   ///< corner a from the origin, edges
 
     template <class Bounds>
-    HWY_INLINE PackEdges(const TrianglePack<Size>& pack, uint32_t first, const BasicPacketRays<Bounds>& rays)
+    HWY_INLINE PackEdges(const TrianglePack<Size>& pack, uint32_t first, const Frustum<Size, Bounds>& rays)
         : PackEdges({pack.corners[0], first, rays}, {pack.corners[1], first, rays},
                     {pack.corners[2], first, rays},
                     {hn::Set(D(), rays.origin[rays.x]), hn::Set(D(), rays.origin[rays.y]),
@@ -490,7 +513,7 @@ struct PackEdges {
 private:
     template <class Bounds>
     HWY_INLINE PackEdges(const Vectors& at_a, const Vectors& at_b, const Vectors& at_c, const Vectors& origin,
-                         const BasicPacketRays<Bounds>& rays)
+                         const Frustum<Size, Bounds>& rays)
         : a(at_a.minus(origin)), ab(at_b.minus(at_a)), bc(at_c.minus(at_b)) {
         const D d;
         const Vectors b = at_b.minus(origin), c = at_c.minus(origin), ca = at_a.minus(at_c);
@@ -546,7 +569,7 @@ struct PackPlanes {
     HWY_ALIGN float numerators[kPart], numerator_errors[kPart], denominator_errors[kPart];
 
     template <class Bounds>
-    HWY_INLINE PackPlanes(const PackEdges<Size>& of, const BasicPacketRays<Bounds>& rays) {
+    HWY_INLINE PackPlanes(const PackEdges<Size>& of, const Frustum<Size, Bounds>& rays) {
         const D d;
         const V nx1 = hn::Mul(of.ab.y, of.bc.z), nx2 = hn::Mul(of.ab.z, of.bc.y),
                 ny1 = hn::Mul(of.ab.z, of.bc.x), ny2 = hn::Mul(of.ab.x, of.bc.z),

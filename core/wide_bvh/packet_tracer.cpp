@@ -46,6 +46,7 @@ struct PacketSearch {
     ClosestHits* decided;                       ///< one for each ray; empty but for those of `decided_bits`
     uint32_t decided_bits = 0;
 
+    PacketSearch() = default;  ///< sets nothing
     HWY_INLINE PacketSearch(const Ray* searched, const PacketRays& prepared, const Pack* first_pack,
                             ClosestHits* exact)
         : rays(searched), packs(first_pack), limits(prepared.t_max), decided(exact) {
@@ -57,27 +58,11 @@ struct PacketSearch {
         limit = limits.largest();
     }
 
-    HWY_INLINE void test(const PacketRays& ray, std::span<const Pack> leaf) {
-        for (const Pack& pack : leaf) {
-            const uint32_t count = count_of(pack);
-            for (uint32_t first = 0; first < count; first += kPart)
-                test_part(ray, pack, first, std::min(kPart, count - first));
-        }
-    }
-    /// Lanes before the first of those that repeat the last one, and one of these.
-    static HWY_INLINE uint32_t count_of(const Pack& pack) {
-        const hn::CappedTag<uint32_t, Width> du;
-        if constexpr (hn::MaxLanes(du) < Width) {
-            return pack.count();
-        } else {
-            const auto is_last = hn::Eq(hn::LoadU(du, pack.prims), hn::Set(du, pack.prims[Width - 1]));
-            return static_cast<uint32_t>(std::countr_zero(mask_bits(du, is_last))) + 1;
-        }
-    }
-    /// The first `count` triangles of a part of the pack, one at least.
-    HWY_INLINE void test_part(const PacketRays& ray, const Pack& pack, uint32_t first, uint32_t count) {
+    /// The first `count` triangles of the part of the pack that begins at lane `first`, one at least.
+    /// Whether any ray may have a hit there.
+    HWY_INLINE bool test(const PacketRays& ray, const Frustum<Width>& frustum, const Pack& pack,
+                         const PackEdges<Width>& edges, uint32_t first, uint32_t count) {
         const PacketTag d;
-        const PackEdges<Width> edges(pack, first, ray);
         uint32_t open[kPart], hit[kPart], any = 0;
         for (uint32_t lane = 0; lane < count; ++lane) {
             open[lane] = hit[lane] = 0;
@@ -92,11 +77,12 @@ struct PacketSearch {
                 any |= 1;
             }
         }
-        if (any == 0) return;
-        const PackPlanes<Width> planes(edges, ray);
+        if (any == 0) return false;
+        const PackPlanes<Width> planes(edges, frustum);
         for (uint32_t lane = 0; lane < count; ++lane)
             if (open[lane] != 0) keep(ray, pack, planes, first, lane, open[lane], hit[lane]);
         limit = limits.largest();
+        return true;
     }
     HWY_INLINE void keep(const PacketRays& ray, const Pack& pack, const PackPlanes<Width>& planes,
                          uint32_t first, uint32_t lane, uint32_t open, uint32_t hit) {
@@ -291,37 +277,128 @@ HWY_INLINE uint32_t push_met(const typename WideBvh<Width>::Node& node, uint32_t
     }
 }
 
+/// Packets that fit each other, searched for as one: a node's boxes are tested, and a pack is prepared, once
+/// for all of them. Neighbouring packets meet almost the same nodes.
 template <uint32_t Width>
-HWY_INLINE void find_closest(const WideBvh<Width>& bvh, const PacketRays& rays, PacketSearch<Width>& search) {
-    const Frustum<Width> frustum(rays);
-    const auto* const nodes = bvh.nodes.data();
-    PacketStack<Width> stack;
-    uint32_t count = 0, index = 0;
-    while (true) {
-        uint32_t lane =
-            push_met<Width>(nodes[index], index, frustum, rays.octant, search.limit, stack, count);
+class PacketGroup {
+public:
+    using Pack = TrianglePack<Width>;
+
+    PacketGroup(const WideBvh<Width>& bvh, const Mesh& mesh)
+        : bvh_(bvh), mesh_(mesh), scene_(bvh.nodes[0].bounds()) {}
+
+    /// Adds those of 16 rays that can be a packet, of those whose bits are set in `wanted`, to be searched
+    /// for now or later; their bits. A few are not worth it, and are returned only.
+    HWY_INLINE uint32_t add(const Ray* rays, const RayLanes& lanes, uint32_t wanted, Hit* hits,
+                            bool& is_added) {
+        if (count_ == kMost) search();
+        PacketRays& packet = *new (&rays_[count_]) PacketRays(rays, lanes, scene_, wanted);
+        is_added = std::popcount(packet.members) > kFew;
+        if (!is_added) return packet.members;
+        const uint32_t members = packet.members;
+        if (count_ > 0 && !packet.fits(rays_[0])) {
+            const PacketRays copy = packet;
+            search();
+            rays_[0] = copy;
+        }
+        new (&searches_[count_])
+            PacketSearch<Width>(rays, rays_[count_], bvh_.packs.data(), decided_[count_]);
+        hits_[count_++] = hits;
+        return members;
+    }
+    /// Finds the hits of all that were added.
+    HWY_NOINLINE void search() {
+        if (count_ == 0) return;
+        const Frustum<Width> frustum(std::span(rays_, count_));
+        set_limit();
+        search(frustum);
+        for (uint32_t i = 0; i < count_; ++i) searches_[i].write(mesh_, rays_[i], hits_[i]);
+        count_ = 0;
+    }
+
+private:
+    static constexpr uint32_t kMost = 4;
+    static constexpr int kFew = 3;  ///< rays that are better cast one by one
+
+    HWY_INLINE void search(const Frustum<Width>& frustum) {
+        const auto* const nodes = bvh_.nodes.data();
+        const uint32_t octant = rays_[0].octant;
+        PacketStack<Width> stack;
+        uint32_t count = 0, index = 0;
         while (true) {
-            if (lane != Width) {
-                const auto& node = nodes[index];
-                const WideChild child = node.children[lane];
-                if (!child.is_leaf()) {
-                    index = child.node();
-                    break;
+            uint32_t lane = push_met<Width>(nodes[index], index, frustum, octant, limit_, stack, count);
+            while (true) {
+                if (lane != Width) {
+                    const auto& node = nodes[index];
+                    const WideChild child = node.children[lane];
+                    if (!child.is_leaf()) {
+                        index = child.node();
+                        break;
+                    }
+                    const uint32_t met = meeting(node.lower[0], frustum.at, lane);
+                    if (met != 0) {
+                        const Pack* const first = bvh_.packs.data() + child.first_pack();
+                        test(frustum, std::span(first, child.pack_count()), met);
+                    }
                 }
-                if (rays.any_meets<Width>(node.lower[0], frustum.at, lane, search.limits))
-                    search.test(rays, std::span(search.packs + child.first_pack(), child.pack_count()));
+                do {
+                    if (count == 0) return;
+                    --count;
+                } while (stack.entries[count] > limit_);
+                index = stack.children[count] / Width;
+                lane = stack.children[count] % Width;
             }
-            do {
-                if (count == 0) return;
-                --count;
-            } while (stack.entries[count] > search.limit);
-            index = stack.children[count] / Width;
-            lane = stack.children[count] % Width;
         }
     }
-}
+    /// Bit i: packet i meets the box.
+    HWY_INLINE uint32_t meeting(const float* planes, const Planes<Width>& at, uint32_t lane) const {
+        uint32_t met = 0;
+        for (uint32_t i = 0; i < count_; ++i)
+            met |= uint32_t{rays_[i].any_meets(planes, at, lane, searches_[i].limits)} << i;
+        return met;
+    }
+    HWY_INLINE void test(const Frustum<Width>& frustum, std::span<const Pack> leaf, uint32_t met) {
+        constexpr uint32_t kPart = PackEdges<Width>::kPart;
+        bool is_any_nearer = false;
+        for (const Pack& pack : leaf) {
+            const uint32_t count = count_of(pack);
+            for (uint32_t first = 0; first < count; first += kPart) {
+                const PackEdges<Width> edges(pack, first, frustum);
+                for (uint32_t packets = met; packets != 0; packets &= packets - 1) {
+                    const int i = std::countr_zero(packets);
+                    is_any_nearer |= searches_[i].test(rays_[i], frustum, pack, edges, first,
+                                                       std::min(kPart, count - first));
+                }
+            }
+        }
+        if (is_any_nearer) set_limit();
+    }
+    /// Lanes before the first of those that repeat the last one, and one of these.
+    static HWY_INLINE uint32_t count_of(const Pack& pack) {
+        const hn::CappedTag<uint32_t, Width> du;
+        if constexpr (hn::MaxLanes(du) < Width) {
+            return pack.count();
+        } else {
+            const auto is_last = hn::Eq(hn::LoadU(du, pack.prims), hn::Set(du, pack.prims[Width - 1]));
+            return static_cast<uint32_t>(std::countr_zero(mask_bits(du, is_last))) + 1;
+        }
+    }
+    HWY_INLINE void set_limit() {
+        limit_ = searches_[0].limit;
+        for (uint32_t i = 1; i < count_; ++i) limit_ = std::max(limit_, searches_[i].limit);
+    }
 
-constexpr int kFew = 3;              ///< members of a packet that are cast one by one
+    const WideBvh<Width>& bvh_;
+    const Mesh& mesh_;
+    const FloatScene scene_;
+    uint32_t count_ = 0;
+    float limit_ = 0.0f;  ///< the largest of all packets
+    PacketRays rays_[kMost];
+    PacketSearch<Width> searches_[kMost];
+    Hit* hits_[kMost];
+    ClosestHits decided_[kMost][kPacketSize];
+};
+
 constexpr size_t kStopInterval = 4;  ///< packets from one look at task.stop to the next
 
 template <uint32_t Width>
@@ -329,31 +406,25 @@ HWY_NOINLINE void trace_packets(const WideBvh<Width>& bvh, const Mesh& mesh, std
                                 std::span<Hit> hits, const Task& task) {
     size_t begin = 0;
     if (!bvh.nodes.empty()) {
-        const FloatScene scene(bvh.nodes[0].bounds());
-        ClosestHits decided[kPacketSize];
+        PacketGroup<Width> group(bvh, mesh);
         for (; begin + kPacketSize <= rays.size(); begin += kPacketSize) {
             if (begin / kPacketSize % kStopInterval == 0 && task.stopped()) return;
             const Ray* const first = rays.data() + begin;
             const RayLanes lanes(first);
             uint32_t left = (1u << kPacketSize) - 1;
             while (left != 0) {
-                const PacketRays packet(first, lanes, scene, left);
-                uint32_t members = packet.members;
-                if (HWY_LIKELY(std::popcount(members) > kFew)) {
-                    PacketSearch<Width> search(first, packet, bvh.packs.data(), decided);
-                    find_closest<Width>(bvh, packet, search);
-                    search.write(mesh, packet, hits.data() + begin);
-                    left &= ~members;
-                    continue;
-                }
+                bool is_added;
+                uint32_t members = group.add(first, lanes, left, hits.data() + begin, is_added);
                 if (members == 0) members = left & (0u - left);
                 left &= ~members;
+                if (HWY_LIKELY(is_added)) continue;
                 for (; members != 0; members &= members - 1) {
                     const size_t i = begin + static_cast<size_t>(std::countr_zero(members));
                     bvh.closest_hits(mesh, rays.subspan(i, 1), hits.subspan(i, 1), Mode::Exact, task);
                 }
             }
         }
+        group.search();
     }
     bvh.closest_hits(mesh, rays.subspan(begin), hits.subspan(begin), Mode::Exact, task);
 }
