@@ -74,7 +74,7 @@ RTCIntersectContext context_with(RTCIntersectContextFlags flags) {
 }  // namespace
 
 struct EmbreeScene::Impl {
-    std::vector<Vec3> positions;  ///< one more than the mesh's: Embree reads 16 bytes at each
+    Array<Vec3> positions;  ///< one more than the mesh's: Embree reads 16 bytes at each
     std::atomic<int64_t> byte_count{0};
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;

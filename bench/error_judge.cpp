@@ -14,8 +14,6 @@ namespace boxwood::bench {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Distance from t to the next float.
 double unit_in_last_place(float t) {
     const float size = std::abs(t);
@@ -26,7 +24,7 @@ double unit_in_last_place(float t) {
 
 /// In units in the last place of `rounded`.
 double error_of(float t, const mpq_class& exact, float rounded) {
-    if (!std::isfinite(t)) return kInfinity;
+    if (!std::isfinite(t)) return std::numeric_limits<double>::infinity();
     const mpq_class difference = static_cast<double>(t) - exact;
     return std::abs(difference.get_d()) / unit_in_last_place(rounded);
 }

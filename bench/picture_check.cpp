@@ -12,7 +12,7 @@
 namespace boxwood::bench {
 namespace {
 
-constexpr size_t kBatch = 256;        // rays between two looks at the task
+constexpr size_t kRayBatch = 256;     // rays between two looks at the task
 constexpr uint64_t kRayBlock = 2048;  // rays timed at once
 
 std::vector<Ray> rays_through(std::span<const uint32_t> pixels, const PictureCheckSettings& settings) {
@@ -30,7 +30,7 @@ std::vector<Ray> rays_through(std::span<const uint32_t> pixels, const PictureChe
 
 void cast(const Mesh& mesh, const Structure& structure, std::span<const Ray> rays, std::span<Hit> hits,
           Mode mode, const Task& task, std::atomic<uint64_t>* done = nullptr) {
-    parallel_for(rays.size(), kBatch, [&](size_t begin, size_t end) {
+    parallel_for(rays.size(), kRayBatch, [&](size_t begin, size_t end) {
         structure.closest_hits(mesh, rays.subspan(begin, end - begin), hits.subspan(begin, end - begin), mode,
                                task);
         if (done != nullptr) *done += end - begin;

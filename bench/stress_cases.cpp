@@ -75,7 +75,7 @@ Mesh sphere(int level) {
             if (is_new) mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
             return place->second;
         };
-        std::vector<UVec3> finer;
+        Array<UVec3> finer;
         for (const UVec3& t : mesh.triangles) {
             const uint32_t ab = midpoint(t.x, t.y), bc = midpoint(t.y, t.z), ca = midpoint(t.z, t.x);
             for (const UVec3& part :

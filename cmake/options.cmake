@@ -8,6 +8,8 @@ target_compile_options(boxwood_options INTERFACE
     -ffp-contract=off
     $<$<CONFIG:Release>:-O2>
     $<$<CONFIG:Debug>:-O1 -g1 -fno-omit-frame-pointer>)
+# Vectors from SSE4 on: what is older is rare and gets plain numbers.
+target_compile_definitions(boxwood_options INTERFACE HWY_DISABLED_TARGETS=HWY_SSSE3)
 set(CMAKE_CXX_FLAGS_RELEASE "")
 set(CMAKE_CXX_FLAGS_DEBUG "")
 set(CMAKE_CXX_EXTENSIONS OFF)

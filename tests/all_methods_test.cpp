@@ -5,6 +5,7 @@
 #include "core/base/parallel.h"
 #include "support/all_recipes.h"
 #include "support/random_mesh.h"
+#include "support/test_name.h"
 
 namespace boxwood {
 namespace {
@@ -98,14 +99,6 @@ TEST_P(EveryMethod, EndsOnDegenerateScenes) {
         EXPECT_LE(built.levels->level_count(), 65u);
     }
     EXPECT_EQ(run(GetParam(), Mesh{}).levels->list.ref_prims.size(), 0u);
-}
-
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-    std::string name = info.param;
-    for (char& c : name) {
-        if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-    }
-    return name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalog, EveryMethod, testing::ValuesIn(all_recipes()), test_name);

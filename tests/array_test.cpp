@@ -21,11 +21,11 @@ TEST(Array, KeepsWhatItHoldsAsItGrowsBeyondALargePage) {
 TEST(Array, MemoryThatWasFreedIsThereAgain) {
     if (kIsSanitized) GTEST_SKIP() << "sanitizers keep freed memory from being used again";
     constexpr size_t kSize = 4 * kLargePage;
-    void* const first = allocate_large(kSize);
-    free_large(first);
-    void* const second = allocate_large(kSize);
+    void* const first = allocate_kept(kSize);
+    free_kept(first, kSize);
+    void* const second = allocate_kept(kSize);
     EXPECT_EQ(second, first);
-    free_large(second);
+    free_kept(second, kSize);
 }
 
 /// Of this process, in bytes that are in memory.
@@ -39,18 +39,18 @@ size_t resident_size() {
 TEST(Array, WhatIsKeptCanBeGivenBack) {
     if (kIsSanitized) GTEST_SKIP() << "sanitizers keep freed memory";
     constexpr size_t kSize = size_t{96} << 20;
-    void* const memory = allocate_large(kSize);
+    void* const memory = allocate_kept(kSize);
     std::memset(memory, 1, kSize);
     const size_t used = resident_size();
     if (used == 0) GTEST_SKIP() << "no /proc";
-    free_large(memory);
+    free_kept(memory, kSize);
     release_kept_memory();
     EXPECT_LT(resident_size(), used - kSize / 2);
 }
 
 TEST(Array, WhatNoMachineHasIsRefused) {
     if (kIsSanitized) GTEST_SKIP() << "sanitizers end the program instead";
-    EXPECT_THROW(allocate_large(size_t{1} << 60), std::bad_alloc);
+    EXPECT_THROW(allocate_kept(size_t{1} << 60), std::bad_alloc);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace boxwood::bench {
 namespace {
 
 /// A structure whose rates are `mrays` for both kinds of rays.
-MeasuredStructure measured(const std::string& family, uint64_t bytes, double build_ms, double mrays) {
+MeasuredStructure lecture_row(const std::string& family, uint64_t bytes, double build_ms, double mrays) {
     MeasuredStructure s;
     s.recipe = family;
     s.family = family;
@@ -24,11 +24,11 @@ MeasuredStructure measured(const std::string& family, uint64_t bytes, double bui
 /// By hand, for 100 triangles: 3600 bytes of corners, the fastest build takes 10 ms, the best rate is 10.
 TEST(Lecture, WordsComeFromRatiosToTheTrianglesTheFastestBuildAndTheBestRate) {
     const std::vector<MeasuredStructure> structures = {
-        measured("list", 400, 1.0, 0.1),  // 0.11 of the corners, 0.1 of the build, 0.01 of the rate
-        measured("uniform grid", 10800, 10.0, 3.0),  // 3 times, 1, 0.3
-        measured("kd-tree", 36000, 90.0, 7.0),       // 10 times, 9 times, 0.7
-        measured("binary BVH", 3600, 40.0, 10.0),    // 1, 4 times, 1
-        measured("something else", 3600, 40.0, 1.0)};
+        lecture_row("list", 400, 1.0, 0.1),  // 0.11 of the corners, 0.1 of the build, 0.01 of the rate
+        lecture_row("uniform grid", 10800, 10.0, 3.0),  // 3 times, 1, 0.3
+        lecture_row("kd-tree", 36000, 90.0, 7.0),       // 10 times, 9 times, 0.7
+        lecture_row("binary BVH", 3600, 40.0, 10.0),    // 1, 4 times, 1
+        lecture_row("something else", 3600, 40.0, 1.0)};
     const std::vector<LectureRow> rows = judge_lecture(structures, 100, /*is_uniform=*/false);
     ASSERT_EQ(rows.size(), 5u);
     const auto expect = [](const LectureWord& word, const char* measured, const char* lecture,
@@ -55,9 +55,9 @@ TEST(Lecture, WordsComeFromRatiosToTheTrianglesTheFastestBuildAndTheBestRate) {
 }
 
 TEST(Lecture, WordsThatNumbersDoNotBearOutAreWorseOrBetter) {
-    const std::vector<MeasuredStructure> structures = {measured("list", 40000, 1.0, 0.5),
-                                                       measured("binary BVH", 36000, 10.0, 10.0),
-                                                       measured("octree", 100, 41.0, 1.0)};
+    const std::vector<MeasuredStructure> structures = {lecture_row("list", 40000, 1.0, 0.5),
+                                                       lecture_row("binary BVH", 36000, 10.0, 10.0),
+                                                       lecture_row("octree", 100, 41.0, 1.0)};
     const std::vector<LectureRow> rows = judge_lecture(structures, 100, true);
     EXPECT_EQ(rows[0].memory.verdict, "worse");      // not none but high
     EXPECT_EQ(rows[0].traversal.verdict, "better");  // 0.05: poor, not abysmal
@@ -68,8 +68,8 @@ TEST(Lecture, WordsThatNumbersDoNotBearOutAreWorseOrBetter) {
 }
 
 TEST(Lecture, AStructureThatWasNotBuiltHasNoWordsAndCountsForNone) {
-    std::vector<MeasuredStructure> structures = {measured("binary BVH", 3600, 10.0, 1.0),
-                                                 measured("kd-tree", 3600, 0.1, 99.0)};
+    std::vector<MeasuredStructure> structures = {lecture_row("binary BVH", 3600, 10.0, 1.0),
+                                                 lecture_row("kd-tree", 3600, 0.1, 99.0)};
     structures[1].is_built = false;
     const std::vector<LectureRow> rows = judge_lecture(structures, 100, true);
     EXPECT_EQ(rows[0].traversal.measured, "excellent");

@@ -53,7 +53,7 @@ TEST(LoadGltf, StripsFansAndListsWithAndWithoutIndices) {
         {"attributes":{"POSITION":0},"indices":1,"mode":5},{"attributes":{"POSITION":0},"mode":6},
         {"attributes":{"POSITION":0}},{"attributes":{"POSITION":0},"mode":1}]}])");
     // 3.7.2.1: strip i, i + 1 + i % 2, i + 2 - i % 2; fan i + 1, i + 2, 0; an incomplete list is cut off.
-    const std::vector<UVec3> expected = {{0, 1, 2}, {1, 3, 2}, {1, 2, 0}, {2, 3, 0}, {0, 1, 2}};
+    const Array<UVec3> expected = {{0, 1, 2}, {1, 3, 2}, {1, 2, 0}, {2, 3, 0}, {0, 1, 2}};
     EXPECT_EQ(scene.mesh.triangles, expected);
     EXPECT_EQ(scene.mesh.positions.size(), 4u);  // one accessor in one instance is stored once
     EXPECT_EQ(scene.mesh.object, (std::vector<uint32_t>{0, 0, 1, 1, 2}));

@@ -12,7 +12,7 @@ TEST(LoadObj, KeepsTheOrderOfFacesAcrossGroupsAndMaterials) {
         load_bytes("a.obj", kObjSquare +
                                 "g left\nf 1 2 3\ng right\nusemtl m\nf 2 3 4\ng left\nusemtl n\n"
                                 "f -4 -2 -1\nf 3/1/1 4//2 1/3\n");
-    const std::vector<UVec3> expected = {{0, 1, 2}, {1, 2, 3}, {0, 2, 3}, {2, 3, 0}};
+    const Array<UVec3> expected = {{0, 1, 2}, {1, 2, 3}, {0, 2, 3}, {2, 3, 0}};
     EXPECT_EQ(scene.mesh.triangles, expected);
     EXPECT_EQ(scene.mesh.source_prim, (std::vector<uint32_t>{0, 1, 2, 3}));
     EXPECT_EQ(scene.mesh.object, (std::vector<uint32_t>{0, 1, 0, 0}));  // unknown materials are one
@@ -37,7 +37,7 @@ TEST(LoadObj, ConcavePolygonCoversItsOutline) {
 TEST(LoadObj, AnyLineEndContinuationAndTrailingComment) {
     const Scene scene =
         load_bytes("a.obj", "v 0 0 0\rv 1 0 0\r\nv 0 1 0 # here\nf 1 \\\r\n 2 \\\n3 # face\r# end");
-    EXPECT_EQ(scene.mesh.triangles, (std::vector<UVec3>{{0, 1, 2}}));
+    EXPECT_EQ(scene.mesh.triangles, (Array<UVec3>{{0, 1, 2}}));
 }
 
 TEST(LoadObj, ErrorsNameTheLine) {

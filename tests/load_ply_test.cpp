@@ -23,7 +23,7 @@ TEST(LoadPly, AsciiPolygonsAndUnknownElements) {
         "a.ply", "ply\nformat ascii 1.0\nelement camera 1\nproperty list uchar float k\nproperty int n\n" +
                      kVertices + "element face 2\nproperty uchar red\n" + kFaces + "3 1.5 nan 2 7\n" +
                      kPlySquare + "255 4 0 1 2 3\n0 3 2 3\n0");
-    const std::vector<UVec3> expected = {{0, 1, 2}, {0, 2, 3}, {2, 3, 0}};
+    const Array<UVec3> expected = {{0, 1, 2}, {0, 2, 3}, {2, 3, 0}};
     EXPECT_EQ(scene.mesh.triangles, expected);
     EXPECT_EQ(scene.mesh.positions[2], Vec3(1, 1, 0));
 }
@@ -38,7 +38,7 @@ TEST(LoadPly, BigEndianOfMixedTypesFacesFirst) {
     for (int i = 0; i < 3; ++i)
         bytes += big_endian<int8_t>(-1) + big_endian(0.5 * i * i) + big_endian<int32_t>(-70000 * i);
     const Scene scene = load_bytes("a.ply", bytes);
-    EXPECT_EQ(scene.mesh.triangles, (std::vector<UVec3>{{2, 0, 1}}));
+    EXPECT_EQ(scene.mesh.triangles, (Array<UVec3>{{2, 0, 1}}));
     EXPECT_EQ(scene.mesh.positions[2], Vec3(-1.0f, 2.0f, -140000.0f));
 }
 
@@ -47,7 +47,7 @@ TEST(LoadPly, StripsEndAtMinusOneAndKeepTheirFacing) {
         load_bytes("a.ply", "ply\nformat ascii 1.0\n" + kVertices +
                                 "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
                                 kPlySquare + "9 0 1 3 2 -1 1 2 3 -1\n");
-    const std::vector<UVec3> expected = {{0, 1, 3}, {1, 2, 3}, {1, 2, 3}};
+    const Array<UVec3> expected = {{0, 1, 3}, {1, 2, 3}, {1, 2, 3}};
     EXPECT_EQ(scene.mesh.triangles, expected);  // all counter-clockwise
 }
 
@@ -57,7 +57,7 @@ TEST(LoadPly, VerticesWithoutFacesArePoints) {
                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float nx\nproperty float ny\n"
                    "property float nz\nproperty float x\nproperty float y\nproperty float z\n"
                    "end_header\n0 0 1 5 6 7\n0 1 0 inf 0 0\n1 0 0 8 9 10\n");
-    EXPECT_EQ(scene.mesh.points.positions, (std::vector<Vec3>{{5, 6, 7}, {8, 9, 10}}));
+    EXPECT_EQ(scene.mesh.points.positions, (Array<Vec3>{{5, 6, 7}, {8, 9, 10}}));
     EXPECT_EQ(scene.mesh.points.normals, (std::vector<Vec3>{{0, 0, 1}, {1, 0, 0}}));
     EXPECT_EQ(scene.mesh.triangle_count(), 0u);
     EXPECT_EQ(scene.skipped.at("non-finite point"), 1u);

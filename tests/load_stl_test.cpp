@@ -10,7 +10,7 @@ namespace {
 const std::string kFacet =
     "facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1 0\n endloop\nendfacet\n";
 
-std::string binary_stl(const std::string& header, uint32_t declared, const std::vector<Vec3>& corners) {
+std::string binary_stl(const std::string& header, uint32_t declared, const Array<Vec3>& corners) {
     std::string bytes = header;
     bytes.resize(80, ' ');
     const auto append = [&bytes](auto value) {
@@ -27,10 +27,10 @@ std::string binary_stl(const std::string& header, uint32_t declared, const std::
 }
 
 TEST(LoadStl, BinaryEvenIfItBeginsWithSolid) {
-    const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 1}, {1, 0, 1}, {0, -2, 1.5f}};
+    const Array<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 1}, {1, 0, 1}, {0, -2, 1.5f}};
     const Scene scene = load_bytes("a.stl", binary_stl("solid text", 2, corners));
     EXPECT_EQ(scene.mesh.positions, corners);
-    EXPECT_EQ(scene.mesh.triangles, (std::vector<UVec3>{{0, 1, 2}, {3, 4, 5}}));
+    EXPECT_EQ(scene.mesh.triangles, (Array<UVec3>{{0, 1, 2}, {3, 4, 5}}));
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_EQ(load_bytes("a.stl", binary_stl("x", 1, corners)).warnings.size(), 1u);  // bytes left over
 }

@@ -66,7 +66,7 @@ TEST(CheckMesh, DropsAndCountsWhatNoStageMaySee) {
     mesh.objects.resize(5);
     Task task;
     check_mesh(mesh, task);
-    EXPECT_EQ(mesh.triangles, (std::vector<UVec3>{{0, 1, 2}, {2, 1, 4}}));
+    EXPECT_EQ(mesh.triangles, (Array<UVec3>{{0, 1, 2}, {2, 1, 4}}));
     EXPECT_EQ(mesh.source_prim, (std::vector<uint32_t>{1, 4}));
     EXPECT_EQ(mesh.object, (std::vector<uint32_t>{1, 4}));
     EXPECT_EQ(mesh.positions[3], Vec3(0.0f));

@@ -2,7 +2,8 @@
 
 // Two instruction sets are enough: without fused operations, where every operation rounds, and with them.
 #if HWY_ARCH_X86
-#define HWY_DISABLED_TARGETS (~(HWY_SCALAR | HWY_EMU128 | HWY_SSSE3 | HWY_AVX2))
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS (~(HWY_SCALAR | HWY_EMU128 | HWY_SSE4 | HWY_AVX2))
 #endif
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tests/packet_bounds_test.cpp"

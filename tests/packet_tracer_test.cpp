@@ -115,7 +115,7 @@ TEST(PacketTracer, LowestOfCoincidentTrianglesWins) {
     Task task;
     Scene scene;
     scene.mesh = random_triangles(200, 0.4f, 3);
-    const std::vector<UVec3> once = scene.mesh.triangles;
+    const Array<UVec3> once = scene.mesh.triangles;
     for (int copy = 0; copy < 2; ++copy) {
         for (size_t i = once.size(); i-- > 0;) {
             scene.mesh.source_prim.push_back(static_cast<uint32_t>(scene.mesh.triangle_count()));

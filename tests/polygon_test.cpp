@@ -17,7 +17,7 @@ double cut_area(const std::vector<Vec2>& outline, size_t& triangle_count) {
     for (const Vec2& p : outline) positions.push_back({p.x, p.y, p.x});
     std::vector<uint32_t> corners(outline.size());
     std::iota(corners.begin(), corners.end(), 0u);
-    std::vector<UVec3> triangles;
+    Array<UVec3> triangles;
     cut_polygon(positions, corners, triangles);
     triangle_count = triangles.size();
     double area = 0.0;
@@ -88,9 +88,9 @@ TEST(Polygon, TimeIsBoundedForManyDents) {
 TEST(Polygon, FanStartsAtTheFirstCornerThatMakesNoFlatTriangle) {
     std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
     const std::vector<uint32_t> corners = {0, 1, 2, 3, 4};
-    std::vector<UVec3> triangles;
+    Array<UVec3> triangles;
     cut_polygon(positions, corners, triangles);
-    EXPECT_EQ(triangles, (std::vector<UVec3>{{1, 2, 3}, {1, 3, 4}, {1, 4, 0}}));
+    EXPECT_EQ(triangles, (Array<UVec3>{{1, 2, 3}, {1, 3, 4}, {1, 4, 0}}));
 }
 
 TEST(Polygon, RoundedCircleIsAFanWithoutFlatTriangles) {
@@ -102,7 +102,7 @@ TEST(Polygon, RoundedCircleIsAFanWithoutFlatTriangles) {
     }
     std::vector<uint32_t> corners(positions.size());
     std::iota(corners.begin(), corners.end(), 0u);
-    std::vector<UVec3> triangles;
+    Array<UVec3> triangles;
     cut_polygon(positions, corners, triangles);
     ASSERT_EQ(triangles.size(), 19998u);
     const uint32_t center = triangles[0].x;

@@ -10,6 +10,7 @@
 #include "core/catalog/pipeline.h"
 #include "core/scene/frame.h"
 #include "support/random_mesh.h"
+#include "support/test_name.h"
 
 namespace boxwood {
 namespace {
@@ -52,12 +53,6 @@ TEST_P(EveryRefittable, OnTheFrameOfTheBuildTheTreeIsTheBuiltOneBitForBit) {
     }
     const Built refitted = run_recipe(recipe, scene, cache, task).value();
     EXPECT_TRUE(same_bytes(*built.structure.as<Bvh2>(), *refitted.structure.as<Bvh2>()));
-}
-
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-    std::string name = info.param;
-    std::ranges::replace(name, '-', '_');
-    return name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Refit, EveryRefittable, testing::ValuesIn(refittable()), test_name);

@@ -4,6 +4,7 @@
 
 #include "support/all_recipes.h"
 #include "support/random_mesh.h"
+#include "support/test_name.h"
 
 namespace boxwood {
 namespace {
@@ -60,14 +61,6 @@ TEST_P(Scaling, ByAPowerOfTwoGivesTheSameNodesAndHits) {
             }
         }
     }
-}
-
-std::string test_name(const testing::TestParamInfo<std::string>& info) {
-    std::string name = info.param;
-    for (char& c : name) {
-        if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-    }
-    return name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalog, Scaling, testing::ValuesIn(all_recipes()), test_name);

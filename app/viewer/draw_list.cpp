@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/measure/report.h"
 #include "core/render/image.h"
 
 namespace boxwood {
@@ -96,13 +97,6 @@ std::vector<OutlineSegment> ray_lines(const PickedRay& picked, const Hit& hit, c
         lines.push_back({0, Vec3(point - arm), Vec3(point + arm)});
     }
     return lines;
-}
-
-/// Digits in groups of three.
-std::string grouped(uint32_t count) {
-    std::string digits = std::to_string(count);
-    for (size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, ",");
-    return digits;
 }
 
 }  // namespace

@@ -15,16 +15,6 @@ std::string formatted(const char* format, double value, int digits = 0) {
 
 }  // namespace
 
-std::string grouped(uint64_t count) {
-    const std::string digits = std::to_string(count);
-    std::string text;
-    for (size_t i = 0; i < digits.size(); ++i) {
-        if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-        text += digits[i];
-    }
-    return text;
-}
-
 std::string byte_text(size_t bytes) {
     static constexpr std::array<const char*, 4> kUnits{" bytes", " KiB", " MiB", " GiB"};
     double value = static_cast<double>(bytes);

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <string>
 
+#include "core/measure/report.h"
+
 namespace boxwood {
 
-/// "3,100,000"
-std::string grouped(uint64_t count);
 /// "12.3 MiB"
 std::string byte_text(size_t bytes);
 /// "0.4 ms", "320 ms", "1.25 s"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -9,41 +8,32 @@
 
 namespace boxwood {
 
-constexpr size_t kLargePage = size_t{2} << 20;
+constexpr size_t kCacheLine = 64, kLargePage = size_t{2} << 20;
 
-/// kLargePage bytes or more, aligned to that, in pages of that size where the system has them. What was freed
-/// is kept for a while: a build that is repeated, as by a slider, has its memory at once, where the system
-/// would have to clear it again. Throws std::bad_alloc.
-void* allocate_large(size_t size);
-void free_large(void* memory);
+/// Aligned to a line of the cache; kLargePage bytes or more to that, in pages of that size where the system
+/// has them. What was freed is kept for a while: a build that is repeated, as by a slider, has its memory at
+/// once, where the system would have to clear it again. Throws std::bad_alloc.
+void* allocate_kept(size_t size);
+void free_kept(void* memory, size_t size);
 /// Gives what was freed and is still kept back to the system.
 void release_kept_memory();
 
 /// Memory for arrays of many megabytes. New elements are left as the memory was: they are first touched by
 /// the threads that write them, and nothing is written twice; for plain data alone, every element of which is
-/// written before it is read. From 2 MiB on in pages of that size (see allocate_large): arrays that are read
-/// here and there then need few entries of the translation buffer, and writing them few page faults.
+/// written before it is read. Large ones in large pages (see allocate_kept): arrays that are read here and
+/// there then need few entries of the translation buffer, and writing them few page faults.
 template <class T>
 struct ArrayAllocator {
     static_assert(std::is_trivially_destructible_v<T> && std::is_trivially_copyable_v<T>);
+    static_assert(alignof(T) <= kCacheLine);
     using value_type = T;
 
     ArrayAllocator() = default;
     template <class U>
     explicit(false) ArrayAllocator(const ArrayAllocator<U>&) {}
 
-    T* allocate(size_t count) {
-        const size_t size = count * sizeof(T);
-        return static_cast<T*>(size < kLargePage ? ::operator new(size, kSmallAlignment)
-                                                 : allocate_large(size));
-    }
-    void deallocate(T* memory, size_t count) {
-        if (count * sizeof(T) < kLargePage) {
-            ::operator delete(memory, kSmallAlignment);
-        } else {
-            free_large(memory);
-        }
-    }
+    T* allocate(size_t count) { return static_cast<T*>(allocate_kept(count * sizeof(T))); }
+    void deallocate(T* memory, size_t count) { free_kept(memory, count * sizeof(T)); }
     template <class U>
     void construct(U*) {}
     template <class U, class... Arguments>
@@ -51,9 +41,6 @@ struct ArrayAllocator {
         std::construct_at(place, std::forward<Arguments>(arguments)...);
     }
     bool operator==(const ArrayAllocator&) const = default;
-
-private:
-    static constexpr std::align_val_t kSmallAlignment{std::max(alignof(T), size_t{64})};
 };
 
 /// A vector whose resize() leaves new elements unset (see ArrayAllocator).

@@ -18,6 +18,7 @@ struct Bvh2 {
         uint32_t count;  ///< inner: 0; leaf: primitives, at least 1
 
         bool is_leaf() const { return count != 0; }
+        double half_area() const { return Box{lower, upper}.half_area(); }
         bool operator==(const Node&) const = default;
     };
     static_assert(sizeof(Node) == 32);

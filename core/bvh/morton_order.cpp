@@ -9,7 +9,7 @@ namespace boxwood {
 namespace {
 
 constexpr int kAxisBits = 21, kCodeBits = 3 * kAxisBits, kLeadingBits = 30;
-constexpr size_t kCodeGrain = 1 << 14;
+constexpr size_t kCodeGrain = 1 << 14, kRunsAtOnce = 64;
 
 /// Bit i of 21 bits to bit 3 i.
 uint64_t spread(uint64_t v) {
@@ -40,38 +40,58 @@ struct Run {
     size_t begin, end;
 };
 
-/// Sorts a run by whole codes.
-void refine(Run run, std::span<const PrimRef> refs, const MortonGrid& grid, MortonOrder& order) {
+/// Sorts runs by whole codes. Keeps its memory from one to the next.
+class Refinement {
+public:
+    Refinement(std::span<const PrimRef> refs, const MortonGrid& grid, MortonOrder& order)
+        : refs_(refs), grid_(grid), order_(order) {}
+
+    /// What the first references of a run that is refined soon need.
+    void prefetch(Run run) const {
+        constexpr size_t kMost = 16;
+        for (size_t i = run.begin; i < std::min(run.end, run.begin + kMost); ++i)
+            __builtin_prefetch(&refs_[order_.ref(i)]);
+    }
+    void refine(Run run) {
+        const size_t count = run.end - run.begin;
+        items_.resize(count);
+        parallel_for(count, kCodeGrain, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) {
+                const uint64_t key = order_.keys[run.begin + i];
+                items_[i] = {grid_.code(refs_[static_cast<uint32_t>(key)]), key};
+            }
+        });
+        std::span<const Item> sorted = items_;
+        if (count < 1024) {
+            std::sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) {
+                return a.code < b.code || (a.code == b.code && a.key < b.key);
+            });
+        } else {
+            spare_.resize(count);
+            sorted = radix_sort(std::span(items_), std::span(spare_), 0, kCodeBits - kLeadingBits,
+                                [](const Item& item) { return item.code; });
+        }
+        parallel_for(count, kCodeGrain, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) {
+                order_.keys[run.begin + i] = sorted[i].key;
+                if (i + 1 == count) break;
+                const uint64_t difference = sorted[i].code ^ sorted[i + 1].code;
+                order_.levels[run.begin + i] = static_cast<uint8_t>(std::countl_zero(difference) - 1);
+            }
+        });
+    }
+
+private:
     struct Item {
         uint64_t code;
         uint64_t key;
     };
-    const size_t count = run.end - run.begin;
-    Array<Item> items(count), spare(count);
-    parallel_for(count, kCodeGrain, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            const uint64_t key = order.keys[run.begin + i];
-            items[i] = {grid.code(refs[static_cast<uint32_t>(key)]), key};
-        }
-    });
-    std::span<const Item> sorted = items;
-    if (count < 1024) {
-        std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
-            return a.code < b.code || (a.code == b.code && a.key < b.key);
-        });
-    } else {
-        sorted = radix_sort(std::span(items), std::span(spare), 0, kCodeBits - kLeadingBits,
-                            [](const Item& item) { return item.code; });
-    }
-    parallel_for(count, kCodeGrain, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            order.keys[run.begin + i] = sorted[i].key;
-            if (i + 1 == count) break;
-            const uint64_t difference = sorted[i].code ^ sorted[i + 1].code;
-            order.levels[run.begin + i] = static_cast<uint8_t>(std::countl_zero(difference) - 1);
-        }
-    });
-}
+
+    std::span<const PrimRef> refs_;
+    const MortonGrid& grid_;
+    MortonOrder& order_;
+    Array<Item> items_, spare_;
+};
 
 /// Levels from leading codes; returns the runs longer than the limit.
 std::vector<Run> find_levels(MortonOrder& order, uint32_t run_limit) {
@@ -148,8 +168,12 @@ MortonOrder morton_order(std::span<const PrimRef> refs, uint32_t run_limit, cons
     radix_sort(std::span(order.keys), std::span(spare), 32, kLeadingBits, [](uint64_t key) { return key; });
     order.keys.swap(spare);  // three digits: the result is in the spare
     const std::vector<Run> runs = find_levels(order, run_limit);
-    parallel_for(runs.size(), 16, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end && !task.stopped(); ++i) refine(runs[i], refs, grid, order);
+    parallel_for(runs.size(), kRunsAtOnce, [&](size_t begin, size_t end) {
+        Refinement refinement(refs, grid, order);
+        for (size_t i = begin; i < end && !task.stopped(); ++i) {
+            if (i + 1 < end) refinement.prefetch(runs[i + 1]);
+            refinement.refine(runs[i]);
+        }
     });
     return order;
 }

@@ -13,7 +13,7 @@
 namespace boxwood {
 namespace {
 
-constexpr size_t kBatch = 256;  ///< lines that share one sequence of random numbers
+constexpr size_t kLineBatch = 256;  ///< lines that share one sequence of random numbers
 
 struct Line {
     DVec3 origin, direction;
@@ -101,10 +101,10 @@ LeafCounts count_leaves_on_lines(const NodeList& list, Task& task, size_t line_c
     };
     task.done = 0;
     task.total = line_count;
-    std::vector<Sums> batches((line_count + kBatch - 1) / kBatch);
-    parallel_for(line_count, kBatch, [&](size_t begin, size_t end) {
+    std::vector<Sums> batches((line_count + kLineBatch - 1) / kLineBatch);
+    parallel_for(line_count, kLineBatch, [&](size_t begin, size_t end) {
         Rng rng(mix_bits(seed) ^ begin);
-        Sums& sums = batches[begin / kBatch];
+        Sums& sums = batches[begin / kLineBatch];
         for (size_t i = begin; i < end && !task.stopped(); ++i) {
             const double leaves = count_leaves(maker.next(rng));
             sums.count += leaves;

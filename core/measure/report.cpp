@@ -48,13 +48,6 @@ Json json_of(const Machine& machine) {
             {"build_type", machine.build_type}};
 }
 
-/// Digits in groups of three: "1,234,567".
-std::string grouped(uint64_t value) {
-    std::string text = std::to_string(value);
-    for (size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, ",");
-    return text;
-}
-
 /// Enough digits to compare by: three decimals below 100, none above 10,000.
 std::string rounded(double value) {
     if (!std::isfinite(value)) return "-";
@@ -134,6 +127,12 @@ void append_line(std::string& table, std::string line) {
 }
 
 }  // namespace
+
+std::string grouped(uint64_t value) {
+    std::string text = std::to_string(value);
+    for (size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, ",");
+    return text;
+}
 
 ReportRow& ReportRow::set(const std::string& key, ReportValue value) {
     const auto known = std::ranges::find(cells_, key, &std::pair<std::string, ReportValue>::first);

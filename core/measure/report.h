@@ -34,6 +34,9 @@ struct Report {
     std::vector<std::pair<std::string, std::vector<ReportRow>>> tables;
 };
 
+/// Digits in groups of three: "1,234,567".
+std::string grouped(uint64_t value);
+
 /// One JSON object: command, scene, machine, commit, rows; ends with a line end. Valid UTF-8 whatever the
 /// names hold.
 std::string to_json(const Report& report);

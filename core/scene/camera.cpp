@@ -11,8 +11,6 @@
 namespace boxwood {
 namespace {
 
-bool is_finite(const DVec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 double tan_half_fov(float fov) {
     const double degrees = std::isfinite(fov) ? std::clamp(static_cast<double>(fov), 1.0, 170.0) : 45.0;
     return std::tan(degrees * (std::numbers::pi / 360.0));

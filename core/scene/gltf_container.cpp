@@ -5,12 +5,6 @@ namespace {
 
 constexpr int kMaxJsonDepth = 128;
 
-uint32_t read_u32(const std::string& bytes, size_t at) {
-    uint32_t value = 0;
-    for (size_t i = 0; i < 4; ++i) value |= uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
-    return value;
-}
-
 /// Refuses nesting that would overflow the stack of a recursive reader.
 void check_json_depth(const InputFile& file, std::string_view json) {
     int depth = 0;

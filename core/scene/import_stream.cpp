@@ -16,8 +16,8 @@ public:
         append(&count, sizeof count);
         append(text.data(), text.size());
     }
-    template <class T>
-    void write_array(const std::vector<T>& values) {
+    template <class T, class Allocator>
+    void write_array(const std::vector<T, Allocator>& values) {
         static_assert(std::is_trivially_copyable_v<T>);
         const uint64_t count = values.size();
         append(&count, sizeof count);
@@ -53,11 +53,10 @@ public:
         copy(text.data(), text.size());
         return text;
     }
-    template <class T>
-    std::vector<T> read_array() {
-        std::vector<T> values(read_count(sizeof(T)));
+    template <class T, class Allocator>
+    void read_array(std::vector<T, Allocator>& values) {
+        values.resize(read_count(sizeof(T)));
         copy(values.data(), values.size() * sizeof(T));
-        return values;
     }
     [[noreturn]] void fail() const { file_.fail("the import ended without a whole result"); }
 
@@ -100,9 +99,9 @@ void read_import_stream(const InputFile& file, const std::string& stream, Scene&
     if (mark == kFailureMark) file.fail("the import refused it: " + in_quotes(reader.read_text()));
     if (mark != kMeshMark) reader.fail();
     Mesh& mesh = scene.mesh;
-    mesh.positions = reader.read_array<Vec3>();
-    mesh.triangles = reader.read_array<UVec3>();
-    mesh.object = reader.read_array<uint32_t>();
+    reader.read_array(mesh.positions);
+    reader.read_array(mesh.triangles);
+    reader.read_array(mesh.object);
     const uint64_t object_count = reader.read_count(sizeof(uint64_t) + sizeof(Vec3));
     for (uint64_t i = 0; i < object_count; ++i) {
         const std::string name = reader.read_text();

@@ -43,6 +43,12 @@ void InputFile::fail_at_byte(uint64_t offset, const std::string& sentence) const
     fail("byte " + std::to_string(offset) + ": " + sentence);
 }
 
+uint32_t read_u32(const std::string& bytes, size_t at) {
+    uint32_t value = 0;
+    for (size_t i = 0; i < 4; ++i) value |= uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
+    return value;
+}
+
 InputFile read_input_file(const std::string& path) {
     InputFile file{path, {}};
     std::error_code error;

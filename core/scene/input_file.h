@@ -31,6 +31,9 @@ bool is_inside_folder(const std::string& folder, const std::string& path);
 /// The folder of a path; "." if it names none.
 std::string folder_of(const std::string& path);
 
+/// Little endian; all four bytes must be there.
+uint32_t read_u32(const std::string& bytes, size_t at);
+
 /// Parses one whole token, correctly rounded; "inf", "nan" and a leading '+' are accepted, what is too large
 /// becomes infinity and what is too small zero. False if it is not a number: `value` is then unchanged.
 bool parse_number(std::string_view token, float& value);

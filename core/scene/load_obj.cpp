@@ -32,7 +32,7 @@ bool is_statement(std::string_view line, std::string_view keyword) {
 /// are not read at all.
 class ObjStatements : public std::streambuf {
 public:
-    ObjStatements(const InputFile& file, std::vector<Vec3>& positions, Task& task)
+    ObjStatements(const InputFile& file, Array<Vec3>& positions, Task& task)
         : file_(file), positions_(positions), task_(task) {}
 
     uint64_t line() const { return line_; }
@@ -113,7 +113,7 @@ private:
     }
 
     const InputFile& file_;
-    std::vector<Vec3>& positions_;
+    Array<Vec3>& positions_;
     Task& task_;
     std::string statement_;
     size_t at_ = 0;

@@ -12,12 +12,6 @@ namespace {
 constexpr size_t kHeaderSize = 84;  ///< 80 bytes of any text and the count of triangles
 constexpr size_t kFacetSize = 50;   ///< normal, three corners, two bytes of attributes
 
-uint32_t read_u32(const std::string& bytes, size_t at) {
-    uint32_t value = 0;
-    for (size_t i = 0; i < 4; ++i) value |= uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
-    return value;
-}
-
 bool starts_with_solid(const std::string& bytes) {
     const size_t begin = bytes.find_first_not_of(" \t\r\n");
     constexpr std::string_view kWord = "solid";

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/array.h"
 #include "core/base/box.h"
 #include "core/base/vec.h"
 
@@ -13,7 +14,7 @@ namespace boxwood {
 /// Points of a point cloud; exact structures ignore them and say so. Arrays of equal length (normals may be
 /// empty).
 struct PointCloud {
-    std::vector<Vec3> positions;
+    Array<Vec3> positions;
     std::vector<Vec3> normals;
 };
 
@@ -39,8 +40,8 @@ struct MeshObject {
 /// What is to be rendered: flat arrays, instances flattened. Triangles with a non-finite vertex or exactly
 /// zero area are absent, as check_mesh leaves it. Triangle i has the arrays' entry i:
 struct Mesh {
-    std::vector<Vec3> positions;
-    std::vector<UVec3> triangles;       ///< three indices into positions
+    Array<Vec3> positions;
+    Array<UVec3> triangles;             ///< three indices into positions
     std::vector<uint32_t> source_prim;  ///< the triangle's number in the file, increasing
     std::vector<uint32_t> object;       ///< index into objects
     std::vector<MeshObject> objects;

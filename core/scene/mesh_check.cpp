@@ -35,8 +35,6 @@ struct CrossTerms {
     }
 };
 
-bool is_finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-
 }  // namespace
 
 bool has_zero_area(const Triangle& triangle) {

@@ -25,8 +25,8 @@ uint64_t hash_bytes(std::span<const std::byte> bytes) {
 }
 
 /// In blocks, so that it runs in parallel; the blocks do not depend on the number of threads.
-template <class T>
-uint64_t hash_array(const std::vector<T>& values) {
+template <class T, class Allocator>
+uint64_t hash_array(const std::vector<T, Allocator>& values) {
     static_assert(sizeof(T) % sizeof(uint32_t) == 0 && alignof(T) == alignof(uint32_t), "no padding");
     constexpr size_t kBlock = size_t{1} << 18;
     const std::span<const std::byte> bytes = std::as_bytes(std::span(values));

@@ -35,7 +35,7 @@ AffineMap rotation(double degrees, const DVec3& axis, const DVec3& center) {
 }
 
 void transform(Mesh& mesh, const AffineMap& map) {
-    const auto move_all = [&](std::vector<Vec3>& positions) {
+    const auto move_all = [&](std::span<Vec3> positions) {
         parallel_for(positions.size(), kPositionGrain, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) positions[i] = Vec3(map(DVec3(positions[i])));
         });

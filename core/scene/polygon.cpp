@@ -86,7 +86,7 @@ public:
         }
     }
 
-    void cut(std::vector<UVec3>& triangles) {
+    void cut(Array<UVec3>& triangles) {
         size_t left = points_.size();
         uint32_t corner = 0;
         size_t refused = 0;  // corners in a row that are no ears
@@ -153,7 +153,7 @@ private:
 }  // namespace
 
 void cut_polygon(std::span<const Vec3> positions, std::span<const uint32_t> corners,
-                 std::vector<UVec3>& triangles) {
+                 Array<UVec3>& triangles) {
     if (corners.size() < 3) return;
     if (corners.size() == 3) {
         triangles.push_back({corners[0], corners[1], corners[2]});

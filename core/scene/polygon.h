@@ -2,8 +2,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "core/base/array.h"
 #include "core/base/vec.h"
 
 namespace boxwood {
@@ -15,7 +15,6 @@ namespace boxwood {
 /// Meisters, "Polygons Have Ears", American Mathematical Monthly 1975. Differs: the search for ears is
 /// bounded; what is left after the bound (a polygon of many thousand dents, or one that crosses itself)
 /// becomes a fan.
-void cut_polygon(std::span<const Vec3> positions, std::span<const uint32_t> corners,
-                 std::vector<UVec3>& triangles);
+void cut_polygon(std::span<const Vec3> positions, std::span<const uint32_t> corners, Array<UVec3>& triangles);
 
 }  // namespace boxwood

@@ -89,7 +89,7 @@ void subdivide_once(Mesh& mesh, Task& task) {
     const std::vector<uint32_t> middle = add_middles(mesh, task);
     if (task.stopped()) return;
     const size_t count = mesh.triangles.size();
-    std::vector<UVec3> triangles(4 * count);
+    Array<UVec3> triangles(4 * count);
     std::vector<uint32_t> source_prim(4 * count), object(4 * count);
     parallel_for(count, kVertexGrain, [&](size_t begin, size_t end) {
         if (task.stopped()) return;

@@ -10,8 +10,6 @@ namespace boxwood {
 
 namespace {
 
-double half_area(const Bvh2::Node& node) { return Box{node.lower, node.upper}.half_area(); }
-
 /// Opens the child with the largest area, unless what is below it fits into one pack.
 template <uint32_t Width>
 class GreedyPlan final : public WidePlan<Width> {
@@ -40,7 +38,7 @@ private:
         const bool fits = counts_.are_few(node) && WideBvh<Width>::Pack::packs_for(counts_.of(node)) == 1;
         return {node, fits || bvh_.nodes[node].is_leaf()};
     }
-    double area(WidePart part) const { return half_area(bvh_.nodes[part.node]); }
+    double area(WidePart part) const { return bvh_.nodes[part.node].half_area(); }
 
     const Bvh2& bvh_;
     const PrimCounts& counts_;

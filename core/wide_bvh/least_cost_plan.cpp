@@ -11,8 +11,6 @@ namespace {
 
 constexpr uint32_t kParallelPlanDepth = 9;  ///< nodes above it are solved in parallel
 
-double half_area(const Bvh2::Node& node) { return Box{node.lower, node.upper}.half_area(); }
-
 }  // namespace
 
 template <uint32_t Width>
@@ -22,7 +20,7 @@ LeastCostPlan<Width>::LeastCostPlan(const Bvh2& bvh, const PrimCounts& counts, c
       counts_(counts),
       costs_(costs),
       task_(task),
-      root_area_(half_area(bvh.nodes[0])),
+      root_area_(bvh.nodes[0].half_area()),
       choices_(std::make_unique_for_overwrite<Choice[]>(bvh.nodes.size() / 2 + 1)) {
     solve(0, 0);
 }
@@ -59,7 +57,7 @@ double LeastCostPlan<Width>::leaf_cost(uint32_t node, uint32_t prim_count) const
 
 template <uint32_t Width>
 double LeastCostPlan<Width>::probability(uint32_t node) const {
-    return hit_probability(half_area(bvh_.nodes[node]), root_area_);
+    return hit_probability(bvh_.nodes[node].half_area(), root_area_);
 }
 
 template <uint32_t Width>

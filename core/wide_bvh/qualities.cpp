@@ -104,10 +104,12 @@ WideBvh<8> build_balanced(const Mesh& mesh, std::span<const PrimRef> refs, const
     });
     if (task.stopped()) return {};
     JoinedPieces joined = join_pieces(top_by_cost(pieces, part_costs()), pieces);
+    Array<Pack8>& packs = joined.bvh.packs;
+    packs.resize(joined.pack_count);
     parallel_for(parts.size(), kPartsAtOnce, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i)
             fill_packs(mesh, std::span(prims).subspan(parts[i].range.begin, pieces[i].pack_count),
-                       std::span(joined.bvh.packs).subspan(joined.first_packs[i], pieces[i].pack_count));
+                       std::span(packs).subspan(joined.first_packs[i], pieces[i].pack_count));
     });
     return std::move(joined.bvh);
 }

@@ -147,7 +147,7 @@ JoinedPieces join_pieces(const PartTree& top, std::span<const WidePiece> pieces)
     WideBvh<8>& bvh = joined.bvh;
     bvh.leaf_count = writer.end().leaf;
     bvh.nodes.resize(writer.end().node);
-    bvh.packs.resize(writer.end().pack);
+    joined.pack_count = writer.end().pack;
     for (const TopWriter::Numbered& numbered : writer.nodes()) bvh.nodes[numbered.index] = numbered.node;
     parallel_for(pieces.size(), 4, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {

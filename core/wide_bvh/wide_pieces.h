@@ -21,8 +21,9 @@ WidePiece make_piece(const PartTree& tree, const PartRoot& root, uint32_t pack_c
 
 /// A hierarchy whose top is a tree with pieces as its parts, each of which occurs once.
 struct JoinedPieces {
-    WideBvh<8> bvh;                     ///< with room for the packs
+    WideBvh<8> bvh;                     ///< without packs
     std::vector<uint32_t> first_packs;  ///< where the packs of each piece begin: in the order of the tree
+    uint32_t pack_count = 0;
 };
 
 /// In parallel.
