@@ -12,7 +12,7 @@ TEST(Bvh, HoldsAPrimitiveOnceInEachLeaf) {
     const Mesh mesh = random_triangles(1, 0.5f, 4);
     const std::vector<PrimRef> refs(6, PrimRef{mesh.triangle(0).bounds(), 0});
     const Bvh2 bvh = BinnedSah{}.build(mesh, refs, task);
-    EXPECT_EQ(bvh.prims, std::vector<uint32_t>{0});
+    EXPECT_EQ(bvh.prims, Array<uint32_t>{0});
     EXPECT_EQ(bvh.nodes.size(), 1u);
 }
 
@@ -30,7 +30,7 @@ TEST(SweepSah, TakesTheCheapestOfAllSplits) {
     ASSERT_EQ(bvh.nodes.size(), 3u);
     EXPECT_EQ(bvh.nodes[1].upper.x, 2.0f);
     EXPECT_EQ(bvh.nodes[2].lower.x, 10.0f);
-    EXPECT_EQ(bvh.prims, (std::vector<uint32_t>{0, 1, 2, 3}));
+    EXPECT_EQ(bvh.prims, (Array<uint32_t>{0, 1, 2, 3}));
 }
 
 TEST(SweepSah, WeighsEveryPlaceByTheLecturesFormula) {
@@ -49,7 +49,7 @@ TEST(SweepSah, WeighsEveryPlaceByTheLecturesFormula) {
         const Bvh2 bvh = SweepSah{.max_leaf_size = 3, .traversal_cost = 2.0f}.build(Mesh{}, refs, task);
         ASSERT_EQ(bvh.nodes.size(), 3u);
         EXPECT_EQ(bvh.nodes[1].count, 3u);
-        EXPECT_EQ(bvh.prims, (std::vector<uint32_t>{0, 2, 3, 1}));
+        EXPECT_EQ(bvh.prims, (Array<uint32_t>{0, 2, 3, 1}));
         EXPECT_EQ(bvh.nodes[1].upper[axis], 3.0f);
         EXPECT_EQ(bvh.nodes[2].lower[axis], 10.0f);
     }

@@ -24,7 +24,7 @@ struct Bvh2 {
     static_assert(sizeof(Node) == 32);
 
     Array<Node> nodes;
-    std::vector<uint32_t> prims;  ///< of the leaves; no leaf holds one twice
+    Array<uint32_t> prims;  ///< of the leaves; no leaf holds one twice
 
     template <Mode mode, class Counter>
     void closest_hit(const Mesh& mesh, ClosestHit<mode>& closest, Counter& count) const;

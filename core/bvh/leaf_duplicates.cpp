@@ -20,7 +20,7 @@ bool has_pieces(std::span<const PrimRef> refs) {
 
 void merge_duplicates(Bvh2& bvh, std::span<const PrimRef> refs) {
     if (bvh.nodes.empty() || !has_pieces(refs)) return;
-    std::vector<uint32_t> prims;
+    Array<uint32_t> prims;
     prims.reserve(bvh.prims.size());
     std::vector<uint32_t> stack{0};
     while (!stack.empty()) {

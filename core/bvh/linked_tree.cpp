@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/base/assert.h"
+#include "core/base/parallel.h"
 #include "core/bvh/split_ref.h"
 
 namespace boxwood {
@@ -10,6 +11,7 @@ namespace boxwood {
 namespace {
 
 constexpr int kMostVisits = 4096;  ///< of one search: bounds its time for every input
+constexpr size_t kNodeGrain = 1 << 14;
 
 Box4 join(Box4 a, const Box4& b) {
     a.extend(b.lower, b.upper);
@@ -19,15 +21,19 @@ Box4 join(Box4 a, const Box4& b) {
 }  // namespace
 
 LinkedTree::LinkedTree(const Bvh2& bvh) : nodes_(bvh.nodes.size()), links_(bvh.nodes.size()) {
-    for (uint32_t i = 0; i < nodes_.size(); ++i) {
-        const Bvh2::Node& node = bvh.nodes[i];
-        nodes_[i] = {node.lower, kNoIndex, node.upper, kNoIndex};
-        if (node.is_leaf()) continue;
-        nodes_[i].left = node.first;
-        nodes_[i].right = node.first + 1;
-        links_[node.first].parent = links_[node.first + 1].parent = i;
-    }
-    if (!links_.empty()) links_[0].parent = kNoIndex;
+    if (nodes_.empty()) return;
+    parallel_for(nodes_.size(), kNodeGrain, [&](size_t begin, size_t end) {
+        for (auto i = static_cast<uint32_t>(begin); i < end; ++i) {
+            const Bvh2::Node& node = bvh.nodes[i];
+            nodes_[i] = {node.lower, kNoIndex, node.upper, kNoIndex};
+            links_[i].height = 0;
+            if (node.is_leaf()) continue;
+            nodes_[i].left = node.first;
+            nodes_[i].right = node.first + 1;
+            links_[node.first].parent = links_[node.first + 1].parent = i;
+        }
+    });
+    links_[0].parent = kNoIndex;
     for (auto i = static_cast<uint32_t>(nodes_.size()); i-- > 0;)  // children after their parents
         if (!is_leaf(i))
             links_[i].height = 1 + std::max(links_[nodes_[i].left].height, links_[nodes_[i].right].height);

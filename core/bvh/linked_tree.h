@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "core/bvh/box4.h"
 #include "core/bvh/bvh2.h"
@@ -57,8 +56,8 @@ private:
     void replace_child(uint32_t parent, uint32_t from, uint32_t to);
     void refit_upwards(uint32_t node);
 
-    std::vector<Node> nodes_;
-    std::vector<Links> links_;
+    Array<Node> nodes_;
+    Array<Links> links_;
 };
 
 }  // namespace boxwood

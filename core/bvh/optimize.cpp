@@ -1,6 +1,8 @@
 #include "core/bvh/optimize.h"
 
 #include <algorithm>
+#include <bit>
+#include <functional>
 
 #include "core/base/parallel.h"
 #include "core/bvh/linked_tree.h"
@@ -10,6 +12,7 @@ namespace boxwood {
 namespace {
 
 constexpr size_t kSearchBlock = 256;  ///< searches that one thread does at a time
+constexpr size_t kKeyBlock = 1 << 14;
 
 /// Sum of the half areas of inner nodes: all of the SAH cost that moves change.
 double inner_area(const Bvh2& bvh) {
@@ -19,29 +22,39 @@ double inner_area(const Bvh2& bvh) {
     return sum;
 }
 
-/// The movable nodes that are the most promising, of equal ones the lower ones.
-std::vector<uint32_t> promising_nodes(const LinkedTree& tree, uint32_t node_count, double share) {
-    struct Candidate {
-        double inefficiency;
-        uint32_t node;
-        bool operator<(const Candidate& other) const {
-            return inefficiency > other.inefficiency ||
-                   (inefficiency == other.inefficiency && node < other.node);
+/// The movable nodes that are the most promising, a share of all; of equally promising ones the lower ones.
+/// In ascending order: nodes that are searched for one after the other are near to each other.
+Array<uint32_t> promising_nodes(const LinkedTree& tree, uint32_t node_count, double share) {
+    // 0: not movable. The bits of floats that are not negative have their order.
+    Array<uint32_t> keys(node_count), movable;
+    parallel_for(node_count, kKeyBlock, [&](size_t begin, size_t end) {
+        for (auto node = static_cast<uint32_t>(begin); node < end; ++node) {
+            const bool is_movable = tree.is_movable(node);
+            keys[node] =
+                is_movable ? std::bit_cast<uint32_t>(static_cast<float>(tree.inefficiency(node))) + 1 : 0;
         }
-    };
-    std::vector<Candidate> candidates;
-    for (uint32_t node = 1; node < node_count; ++node)
-        if (tree.is_movable(node)) candidates.push_back({tree.inefficiency(node), node});
-    const auto wanted = static_cast<size_t>(std::ceil(share * static_cast<double>(candidates.size())));
-    const size_t count = std::min(wanted, candidates.size());
-    std::nth_element(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count),
-                     candidates.end());
-    std::vector<uint32_t> nodes(count);
-    for (size_t i = 0; i < count; ++i) nodes[i] = candidates[i].node;
+    });
+    movable.reserve(node_count);
+    for (const uint32_t key : keys)
+        if (key != 0) movable.push_back(key);
+    const auto wanted = static_cast<size_t>(std::ceil(share * static_cast<double>(movable.size())));
+    const size_t count = std::min(wanted, movable.size());
+    if (count == 0) return {};
+    const auto last = movable.begin() + static_cast<std::ptrdiff_t>(count - 1);
+    std::nth_element(movable.begin(), last, movable.end(), std::greater<>());
+    const uint32_t least = *last;
+    auto equal = static_cast<size_t>(std::count(movable.begin(), last + 1, least));  // that are wanted
+    Array<uint32_t> nodes;
+    nodes.reserve(count);
+    for (uint32_t node = 0; node < node_count; ++node) {
+        if (keys[node] < least || (keys[node] == least && equal == 0)) continue;
+        if (keys[node] == least) --equal;
+        nodes.push_back(node);
+    }
     return nodes;
 }
 
-std::vector<LinkedTree::Move> find_moves(const LinkedTree& tree, const std::vector<uint32_t>& nodes,
+std::vector<LinkedTree::Move> find_moves(const LinkedTree& tree, std::span<const uint32_t> nodes,
                                          Task& task) {
     std::vector<std::optional<LinkedTree::Move>> found(nodes.size());
     parallel_for(nodes.size(), kSearchBlock, [&](size_t begin, size_t end) {
@@ -75,7 +88,7 @@ Bvh2 Optimize::apply(const Mesh&, std::span<const PrimRef>, const Bvh2& input, T
     uint64_t move_count = 0, in_best_place = 0, overtaken = 0;
     task.total = static_cast<uint64_t>(double(share) * node_count) * static_cast<uint64_t>(rounds);
     for (int round = 0; round < rounds; ++round) {
-        const std::vector<uint32_t> nodes = promising_nodes(tree, node_count, double(share));
+        const Array<uint32_t> nodes = promising_nodes(tree, node_count, double(share));
         const std::vector<LinkedTree::Move> moves = find_moves(tree, nodes, task);
         if (task.stopped()) return {};
         in_best_place += nodes.size() - moves.size();

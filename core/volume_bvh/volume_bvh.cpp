@@ -56,7 +56,7 @@ NodeList VolumeBvh<Volume>::list_nodes() const {
     list.is_nested = false;
     list.nodes.resize(nodes.size());
     list.half_areas.resize(nodes.size());
-    list.ref_prims = prims;
+    list.ref_prims.assign(prims.begin(), prims.end());
     for (uint32_t i = 0; i < nodes.size(); ++i) {
         const Node& node = nodes[i];
         NodeView& view = list.nodes[i];

@@ -31,7 +31,7 @@ struct VolumeBvh {
     static_assert(sizeof(Node) == sizeof(Volume) + 8);
 
     std::vector<Node> nodes;
-    std::vector<uint32_t> prims;  ///< of the leaves; no leaf holds one twice
+    Array<uint32_t> prims;  ///< of the leaves; no leaf holds one twice
     Box bounds;                   ///< of all that the leaves hold
 
     template <Mode mode, class Counter>
