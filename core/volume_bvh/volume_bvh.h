@@ -32,7 +32,7 @@ struct VolumeBvh {
 
     std::vector<Node> nodes;
     Array<uint32_t> prims;  ///< of the leaves; no leaf holds one twice
-    Box bounds;                   ///< of all that the leaves hold
+    Box bounds;             ///< of all that the leaves hold
 
     template <Mode mode, class Counter>
     void closest_hit(const Mesh& mesh, ClosestHit<mode>& closest, Counter& count) const;
