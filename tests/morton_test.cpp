@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <functional>
+#include <map>
+#include <tuple>
 
 #include "core/bvh/morton_order.h"
 #include "core/measure/tree_stats.h"
@@ -76,6 +79,65 @@ TEST(MortonGrid, HasCubicCellsAndCutsLongerAxesFirst) {
     EXPECT_EQ(top_bit(0, 0, 512), 61);
     EXPECT_EQ(top_bit(512, 0, 0), 60);
     EXPECT_EQ(top_bit(0, 256, 0), 59);
+}
+
+/// Sets of one leading code, of 1 to 20 references in all places of the grid, and some larger ones.
+std::vector<PrimRef> sets_of_one_leading_code() {
+    std::vector<PrimRef> refs = whole_grid();
+    Rng rng(5);
+    const auto coordinate = [&](size_t cells, size_t width) {
+        return static_cast<float>(rng.next_index(cells) * width);
+    };
+    for (uint32_t set = 0; set < 400; ++set) {
+        const Vec3 cell(coordinate(1024, 2048), coordinate(1024, 2048), coordinate(1024, 2048));
+        const uint32_t count = set % 100 == 99 ? 1500 : 1 + set % 20;
+        for (uint32_t i = 0; i < count; ++i) {
+            // Every third at the same place.
+            const Vec3 at = i % 3 == 0
+                                ? cell
+                                : cell + Vec3(coordinate(2048, 1), coordinate(2048, 1), coordinate(2048, 1));
+            refs.push_back(at_cell(static_cast<uint32_t>(refs.size()), at.x, at.y, at.z));
+        }
+    }
+    return refs;
+}
+
+/// As morton_order says, by comparisons.
+struct ExpectedOrder {
+    std::vector<uint32_t> refs;
+    std::vector<uint8_t> levels;
+
+    ExpectedOrder(const std::vector<uint64_t>& codes, uint32_t run_limit) {
+        std::map<uint64_t, uint32_t> counts;  // by leading code
+        for (const uint64_t code : codes) ++counts[code >> 33];
+        const auto key = [&](uint32_t ref) {
+            const bool is_refined = counts[codes[ref] >> 33] > run_limit;
+            return std::tuple(codes[ref] >> 33, is_refined ? codes[ref] : 0, ref);
+        };
+        for (uint32_t i = 0; i < codes.size(); ++i) refs.push_back(i);
+        std::ranges::sort(refs, {}, key);
+        for (size_t i = 0; i + 1 < refs.size(); ++i) {
+            const uint64_t a = codes[refs[i]], b = codes[refs[i + 1]];
+            const bool is_equal = a >> 33 == b >> 33 && (a == b || counts[a >> 33] <= run_limit);
+            levels.push_back(is_equal ? MortonOrder::kEqual
+                                      : static_cast<uint8_t>(std::countl_zero(a ^ b) - 1));
+        }
+    }
+};
+
+TEST(MortonOrder, IsThatOfComparisons) {
+    const std::vector<PrimRef> refs = sets_of_one_leading_code();
+    const std::vector<uint64_t> codes = codes_of(refs);
+    for (const uint32_t run_limit : {1u, 4u, 8u, 10000u}) {
+        const MortonOrder order = morton_order(refs, run_limit, Task());
+        const ExpectedOrder expected(codes, run_limit);
+        ASSERT_EQ(order.keys.size(), refs.size());
+        ASSERT_EQ(order.levels.size(), refs.size() - 1);
+        for (size_t i = 0; i < refs.size(); ++i)
+            ASSERT_EQ(order.ref(i), expected.refs[i]) << run_limit << ", " << i;
+        for (size_t i = 0; i + 1 < refs.size(); ++i)
+            ASSERT_EQ(order.levels[i], expected.levels[i]) << run_limit << ", " << i;
+    }
 }
 
 TEST(Morton, SortsAlongTheCurveThenByIndex) {

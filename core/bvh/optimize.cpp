@@ -25,24 +25,23 @@ double inner_area(const Bvh2& bvh) {
 /// The movable nodes that are the most promising, a share of all; of equally promising ones the lower ones.
 /// In ascending order: nodes that are searched for one after the other are near to each other.
 Array<uint32_t> promising_nodes(const LinkedTree& tree, uint32_t node_count, double share) {
-    // 0: not movable. The bits of floats that are not negative have their order.
-    Array<uint32_t> keys(node_count), movable;
+    // 0: not movable. The bits of numbers that are not negative have their order.
+    Array<uint64_t> keys(node_count), movable;
     parallel_for(node_count, kKeyBlock, [&](size_t begin, size_t end) {
         for (auto node = static_cast<uint32_t>(begin); node < end; ++node) {
             const bool is_movable = tree.is_movable(node);
-            keys[node] =
-                is_movable ? std::bit_cast<uint32_t>(static_cast<float>(tree.inefficiency(node))) + 1 : 0;
+            keys[node] = is_movable ? std::bit_cast<uint64_t>(tree.inefficiency(node)) + 1 : 0;
         }
     });
     movable.reserve(node_count);
-    for (const uint32_t key : keys)
+    for (const uint64_t key : keys)
         if (key != 0) movable.push_back(key);
     const auto wanted = static_cast<size_t>(std::ceil(share * static_cast<double>(movable.size())));
     const size_t count = std::min(wanted, movable.size());
     if (count == 0) return {};
     const auto last = movable.begin() + static_cast<std::ptrdiff_t>(count - 1);
     std::nth_element(movable.begin(), last, movable.end(), std::greater<>());
-    const uint32_t least = *last;
+    const uint64_t least = *last;
     auto equal = static_cast<size_t>(std::count(movable.begin(), last + 1, least));  // that are wanted
     Array<uint32_t> nodes;
     nodes.reserve(count);
