@@ -287,8 +287,8 @@ public:
     PacketGroup(const WideBvh<Width>& bvh, const Mesh& mesh)
         : bvh_(bvh), mesh_(mesh), scene_(bvh.nodes[0].bounds()) {}
 
-    /// Adds those of 16 rays that can be a packet, of those whose bits are set in `wanted`, to be searched
-    /// for now or later; their bits. A few are not worth it, and are returned only.
+    /// The bits of those of 16 rays that can be a packet, of those whose bits are set in `wanted`; 0 where
+    /// the first of these cannot. They are added, to be searched for now or later, unless they are few.
     HWY_INLINE uint32_t add(const Ray* rays, const RayLanes& lanes, uint32_t wanted, Hit* hits,
                             bool& is_added) {
         if (count_ == kMost) search();

@@ -113,7 +113,8 @@ struct WideBvh {
     /// rays.size(). After a stop what is not yet traced is a miss, and not to be read.
     void closest_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits, Mode mode,
                       const Task& task) const;
-    /// As closest_hits; by packets of 16 rays where these share their origin. See packet_bounds.h.
+    /// As closest_hits; by packets of 16 rays where these share their origin, up to four of them searched for
+    /// as one. See packet_bounds.h.
     void closest_hits_coherent(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits, Mode mode,
                                const Task& task) const;
     void any_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<uint8_t> occluded, Mode mode,

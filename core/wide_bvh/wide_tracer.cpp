@@ -2,7 +2,6 @@
 #define HWY_TARGET_INCLUDE "core/wide_bvh/wide_tracer.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
