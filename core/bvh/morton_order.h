@@ -27,8 +27,8 @@ private:
     Int4 cell(const PrimRef& ref) const;
 
     Float4 lower_, scale_;
-    int shift_[3];  ///< of an axis' bits within each triple
-    std::array<std::array<uint32_t, 1 << kLeadingAxisBits>, 3> leading_;  ///< code of a cell along an axis
+    int shift_[3];                                            ///< of an axis' bits within each triple
+    std::array<uint32_t, 1 << kLeadingAxisBits> leading_[3];  ///< code of a cell along an axis
 };
 
 /// References along the Morton curve.
