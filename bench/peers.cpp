@@ -109,7 +109,7 @@ std::vector<PeerRow> rows_for(const RaySet& set, const Scene& scene, std::span<c
 
 /// Pixels of a square picture, tile by tile as the renderer takes them.
 std::vector<uint32_t> tile_order(int size) {
-    constexpr int kTile = 16;
+    constexpr int kTile = TracePass().tile_size;
     std::vector<uint32_t> pixels;
     const auto append = [&](int x, int y) { pixels.push_back(static_cast<uint32_t>(y * size + x)); };
     for (int y = 0; y < size; y += kTile)

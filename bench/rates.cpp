@@ -20,16 +20,22 @@ public:
         return process_ms() - begin;
     }
 
+    /// The lesser of two casts: the first finds nothing in the cache, and either may be held up.
+    double least_cast(std::span<const Ray> rays) const {
+        const double once = cast(rays);
+        return std::min(once, cast(rays));
+    }
+
     /// As many rays as take about `ms`, found by casting more and more of them.
     size_t fitting_count(std::span<const Ray> rays, double ms) const {
-        for (size_t count = std::min<size_t>(rays.size(), 16);; count = std::min(rays.size(), 4 * count)) {
-            const std::vector<Ray> some = evenly_spread(rays, count);
-            // The lesser of two: the first finds nothing in the cache, and either may be held up.
-            const double once = cast(some), taken = std::min(once, cast(some));
-            if (count < rays.size() && taken < 0.25 * ms && !task_.stopped()) continue;
-            const double fitting = static_cast<double>(count) * ms / std::max(taken, 1e-3);
-            return static_cast<size_t>(std::clamp(fitting, 1.0, static_cast<double>(rays.size())));
+        size_t count = std::min<size_t>(rays.size(), 16);
+        double taken = least_cast(evenly_spread(rays, count));
+        while (count < rays.size() && taken < 0.25 * ms && !task_.stopped()) {
+            count = std::min(rays.size(), 4 * count);
+            taken = least_cast(evenly_spread(rays, count));
         }
+        const double fitting = static_cast<double>(count) * ms / std::max(taken, 1e-3);
+        return static_cast<size_t>(std::clamp(fitting, 1.0, static_cast<double>(rays.size())));
     }
 
 private:

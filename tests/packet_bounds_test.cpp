@@ -377,6 +377,22 @@ TEST(PacketBounds, ReplacedComponentsNeedTheirPad) {
     expect_needed(cases, PacketVariant::HalfMoved, is_box_missed);
 }
 
+/// By hand: the first packet enters at 1 and leaves at 8, the second enters at 1/2 and leaves at 4.
+TEST(PacketBounds, AFrustumIsThatOfAllItsPackets) {
+    FloatCase slow;
+    slow.ray.direction = {1.0f, 0.01f, 0.01f};
+    slow.box = {{1.0f, -1.0f, -1.0f}, {8.0f, 1.0f, 1.0f}};
+    PacketCase packet = packet_of(slow);
+    for (size_t i = 16; i < packet.rays.size(); ++i) packet.rays[i].direction.x = 2.0f;
+    for_each_vector_target(HWY_TARGETS, [&](const std::string& name, bool) {
+        std::vector<PacketAnswers> answers(1);
+        HWY_DYNAMIC_DISPATCH(answer_packets)(std::span(&packet, 1), PacketVariant::Derived, answers);
+        EXPECT_TRUE(answers[0].back().is_usable) << name;
+        EXPECT_NEAR(answers[0].back().entry, 0.5f, 1e-5f) << name;
+        EXPECT_NEAR(answers[0].back().exit, 8.0f, 1e-4f) << name;  // that of the first
+    });
+}
+
 /// However the mantissas fall, no answer is wrong, of equal rays and of others.
 TEST(PacketBounds, HoldWhereRoundingsAreLarge) {
     const auto expect_right = [](FloatCase (*make)(Rng&), int count, uint64_t seed, IsWrong is_wrong) {

@@ -18,7 +18,7 @@ void free_kept(void* memory, size_t size);
 /// Gives what was freed and is still kept back to the system.
 void release_kept_memory();
 
-/// Memory for arrays of many megabytes. New elements are left as the memory was: they are first touched by
+/// Memory for arrays that may be large. New elements are left as the memory was: they are first touched by
 /// the threads that write them, and nothing is written twice; for plain data alone, every element of which is
 /// written before it is read. Large ones in large pages (see allocate_kept): arrays that are read here and
 /// there then need few entries of the translation buffer, and writing them few page faults.

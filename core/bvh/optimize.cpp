@@ -11,14 +11,14 @@ namespace boxwood {
 
 namespace {
 
-constexpr size_t kSearchBlock = 256;  ///< searches that one thread does at a time
-constexpr size_t kKeyBlock = 1 << 14;
+constexpr size_t kSearchBlock = 256;   ///< searches that one thread does at a time
+constexpr size_t kKeyBlock = 1 << 14;  ///< nodes that one thread looks at at a time
 
 /// Sum of the half areas of inner nodes: all of the SAH cost that moves change.
 double inner_area(const Bvh2& bvh) {
     double sum = 0.0;
     for (const Bvh2::Node& node : bvh.nodes)
-        if (!node.is_leaf()) sum += Box{node.lower, node.upper}.half_area();
+        if (!node.is_leaf()) sum += node.half_area();
     return sum;
 }
 

@@ -23,7 +23,7 @@ WidePiece make_piece(const PartTree& tree, const PartRoot& root, uint32_t pack_c
 struct JoinedPieces {
     WideBvh<8> bvh;                     ///< without packs
     std::vector<uint32_t> first_packs;  ///< where the packs of each piece begin: in the order of the tree
-    uint32_t pack_count = 0;
+    uint32_t pack_count = 0;            ///< of all pieces
 };
 
 /// In parallel.
