@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/base/rng.h"
+#include "core/base/sampling.h"
 #include "core/measure/verify.h"
-#include "core/render/leaving_ray.h"
-#include "core/render/sampling.h"
+#include "core/structure/leaving_ray.h"
 
 namespace boxwood::bench {
 

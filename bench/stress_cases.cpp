@@ -5,9 +5,9 @@
 #include <map>
 
 #include "core/base/rng.h"
-#include "core/render/leaving_ray.h"
-#include "core/render/sampling.h"
+#include "core/base/sampling.h"
 #include "core/structure/closest.h"
+#include "core/structure/leaving_ray.h"
 
 namespace boxwood::bench {
 

@@ -65,18 +65,21 @@ TEST(Qualities, PacksOfThePreviewEndWhereCodesPart) {
     EXPECT_EQ(packs(order_of({})), (std::vector<uint32_t>{0, 1}));
 }
 
-TEST(Qualities, BestSplitsSpaceWhereBoxesAreLoose) {
-    const std::string reason = "boxes are tight: not split in space";
-    for (const auto& [name, is_tight] :
-         {std::pair("terrain@tris=10k", true), std::pair("spaceship", false)}) {
+TEST(Qualities, BestSplitsSpaceWhereBoxesAreLooseAndPiecesNotDearer) {
+    const std::string tight = "boxes are tight: not split in space",
+                      whole = "cheaper whole: not split in space";
+    const std::tuple<const char*, bool, bool> cases[] = {
+        {"terrain@tris=10k", true, false}, {"spaceship", false, false}, {"kitchen", false, true}};
+    for (const auto& [name, is_tight, is_cheaper_whole] : cases) {
         Task task;
         const auto scene = open_scene(name, task);
         const std::vector<PrimRef> refs = whole_refs(scene->mesh);
         const WideBvh<8> best = Best{}.build(scene->mesh, refs, task);
-        EXPECT_EQ(skipped(task, reason), is_tight ? refs.size() : 0u) << name;
+        EXPECT_EQ(skipped(task, tight), is_tight ? refs.size() : 0u) << name;
+        EXPECT_EQ(skipped(task, whole), is_cheaper_whole ? refs.size() : 0u) << name;
         size_t count = 0;
         for (const WideBvh<8>::Pack& pack : best.packs) count += pack.count();
-        EXPECT_EQ(count == refs.size(), is_tight) << name;
+        EXPECT_EQ(count == refs.size(), is_tight || is_cheaper_whole) << name;
     }
 }
 

@@ -1,4 +1,4 @@
-#include "core/render/sampling.h"
+#include "core/base/sampling.h"
 
 #include <gtest/gtest.h>
 

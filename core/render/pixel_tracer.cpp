@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/render/leaving_ray.h"
-#include "core/render/sampling.h"
+#include "core/base/sampling.h"
+#include "core/structure/leaving_ray.h"
 
 namespace boxwood {
 

@@ -12,6 +12,7 @@
 #include "core/wide_bvh/collapse.h"
 #include "core/wide_bvh/morton_part.h"
 #include "core/wide_bvh/part_top.h"
+#include "core/wide_bvh/sampled_cost.h"
 
 namespace boxwood {
 
@@ -21,12 +22,19 @@ constexpr uint32_t kBinnedPartSize = 4096;  ///< triangles of a part of `balance
 /// From here on `best` splits space. Scans have 2.2 to 3.4, and spatial splits lower their cost by at most 2
 /// % (bench/RESULTS.md); architecture and machines have more, up to 18, and gain up to a sixth.
 constexpr double kLooseBoxes = 4.0;
+constexpr size_t kViewers = 2048;  ///< whose rays tell `best` whether pieces or whole triangles are cheaper
+/// Whole triangles must be cheaper by more than these rays differ from those of one view.
+constexpr double kClearlyLess = 0.95;
 constexpr size_t kPartsAtOnce = 8;  ///< that a thread takes with the same memory
 
-PartCosts part_costs() {
+WideCosts collapse_costs() {
     const Collapse<8> collapse;
-    return {static_cast<double>(collapse.node_cost), static_cast<double>(collapse.pack_cost),
-            static_cast<uint32_t>(collapse.leaf_size) / Pack8::kSize};
+    return {static_cast<double>(collapse.node_cost), static_cast<double>(collapse.pack_cost)};
+}
+
+PartCosts part_costs() {
+    const WideCosts costs = collapse_costs();
+    return {costs.node, costs.pack, static_cast<uint32_t>(Collapse<8>{}.leaf_size) / Pack8::kSize};
 }
 
 /// Whether each reference is a triangle, and each triangle of the mesh a reference, in the same order: where
@@ -162,15 +170,26 @@ WideBvh<8> Balanced::build(const Mesh& mesh, std::span<const PrimRef> refs, Task
 }
 
 WideBvh<8> Best::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const {
-    const bool is_cut = loose_boxes(mesh, refs, task) >= kLooseBoxes;
-    if (!is_cut) task.skipped.add("boxes are tight: not split in space", refs.size());
+    const auto finish = [&](const Bvh2& bvh) {
+        if (task.stopped()) return WideBvh<8>{};
+        return Collapse<8>{}.apply(mesh, refs, Optimize{}.apply(mesh, refs, bvh, task), task);
+    };
+    WideBvh<8> whole = finish(BinnedSah{}.build(mesh, refs, task));
+    if (refs.empty() || task.stopped()) return whole;
+    if (loose_boxes(mesh, refs, task) < kLooseBoxes) {
+        task.skipped.add("boxes are tight: not split in space", refs.size());
+        return whole;
+    }
     SpatialSplits splits;
     splits.budget = budget;
-    const Bvh2 parts = is_cut ? splits.build(mesh, refs, task) : BinnedSah{}.build(mesh, refs, task);
-    if (task.stopped()) return {};
-    const Bvh2 bvh = Optimize{}.apply(mesh, refs, parts, task);
-    if (task.stopped()) return {};
-    return Collapse<8>{}.apply(mesh, refs, bvh, task);
+    WideBvh<8> cut = finish(splits.build(mesh, refs, task));
+    const std::vector<Ray> rays = viewer_rays(mesh, whole, kViewers, task);
+    const auto cost_of = [&](const WideBvh<8>& bvh) {
+        return sampled_cost(bvh, mesh, rays, collapse_costs(), task);
+    };
+    if (kClearlyLess * cost_of(cut) < cost_of(whole)) return cut;
+    task.skipped.add("cheaper whole: not split in space", refs.size());
+    return whole;
 }
 
 }  // namespace boxwood

@@ -24,10 +24,11 @@ struct Balanced {
     WideBvh<8> build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const;
 };
 
-/// The eight-wide hierarchy that is traced fastest: spatial splits where cuts can take much from the boxes of
-/// triangles, else splits between centres in bins; subtrees moved to where they cost less; nodes of least
-/// expected cost. See SpatialSplits, BinnedSah, Optimize and Collapse. Counted in task.skipped: references
-/// that were not split in space since their "boxes are tight".
+/// The eight-wide hierarchy that is traced fastest: splits between centres in bins, subtrees moved to where
+/// they cost less, nodes of least expected cost. See BinnedSah, Optimize and Collapse. Where cuts can take
+/// much from the boxes of triangles, the same out of spatial splits (see SpatialSplits), unless whole
+/// triangles have clearly the lower sampled_cost. Counted in task.skipped: references that were not split in
+/// space since their "boxes are tight", or as they were "cheaper whole".
 struct Best {
     static constexpr const char* kStandIn = "preview";
 

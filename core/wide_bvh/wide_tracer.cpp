@@ -4,6 +4,8 @@
 // After foreach_target.h:
 #include <hwy/highway.h>
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <cstring>
 #include <optional>
@@ -422,6 +424,8 @@ HWY_INLINE void for_each_ray(const WideBvh<Width>& bvh, std::span<const Ray> ray
         const size_t count = std::min(FloatRays<mode>::kCount, rays.size() - first);
         const FloatRays<mode> prepared(rays.subspan(first, count), scene);
         for (size_t i = 0; i < count; ++i) {
+            // Of the next part, which would be waited for at once.
+            hwy::Prefetch(&rays[std::min(first + count + i, rays.size() - 1)]);
             if (HWY_LIKELY(prepared.usable[i] != 0)) {
                 trace(prepared, i, first + i);
             } else {

@@ -11,7 +11,7 @@ namespace {
 
 // The hall, in metres: three storeys of gratings and girders, tanks on the ground, pipes everywhere.
 constexpr double kLength = 72.0, kHeight = 27.0, kDepth = 36.0;
-constexpr double kStorey = 8.0, kBay = 6.0;
+constexpr double kStorey = 8.0, kSpan = 6.0;
 constexpr size_t kTriangles = 1'667'578;  ///< Ernst and Greiner 2007, figure 3: "Power plant (part)"
 
 struct Service {
@@ -146,18 +146,18 @@ void add_hall(MeshBuilder& b) {
     b.add_quad({0, 0, 0}, {kLength, 0, 0}, {kLength, kHeight, 0}, {0, kHeight, 0});
     b.add_quad({0, 0, 0}, {0, kHeight, 0}, {0, kHeight, kDepth}, {0, 0, kDepth});
     const DVec3 up(0, 1, 0);
-    const int bays_x = static_cast<int>(kLength / kBay), bays_z = static_cast<int>(kDepth / kBay);
+    const int bays_x = static_cast<int>(kLength / kSpan), bays_z = static_cast<int>(kDepth / kSpan);
     b.use_object("girders", {0.24f, 0.28f, 0.26f});
     for (int i = 0; i <= bays_x; ++i)
         for (int k = 0; k <= bays_z; ++k)
-            add_girder(b, {kBay * i, 0, kBay * k}, {kBay * i, kHeight, kBay * k}, {1, 0, 0});
+            add_girder(b, {kSpan * i, 0, kSpan * k}, {kSpan * i, kHeight, kSpan * k}, {1, 0, 0});
     for (double y = kStorey; y < kHeight; y += kStorey) {
         b.use_object("girders", {});
-        for (int i = 0; i <= bays_x; ++i) add_girder(b, {kBay * i, y, 0}, {kBay * i, y, kDepth}, up);
-        for (int k = 0; k <= bays_z; ++k) add_girder(b, {0, y, kBay * k}, {kLength, y, kBay * k}, up);
+        for (int i = 0; i <= bays_x; ++i) add_girder(b, {kSpan * i, y, 0}, {kSpan * i, y, kDepth}, up);
+        for (int k = 0; k <= bays_z; ++k) add_girder(b, {0, y, kSpan * k}, {kLength, y, kSpan * k}, up);
         // Walkways of gratings: thin bars between two girders, every second bay.
         for (int k = 1; k < bays_z; k += 2) {
-            const double z = kBay * k;
+            const double z = kSpan * k;
             b.use_object("grating", {0.30f, 0.31f, 0.32f});
             for (double x = 0.05; x < kLength; x += 0.12)
                 b.add_beam({x, y + 0.22, z}, {x, y + 0.22, z + 1.4}, 0.01, 0.03);

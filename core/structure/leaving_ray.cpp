@@ -1,4 +1,4 @@
-#include "core/render/leaving_ray.h"
+#include "core/structure/leaving_ray.h"
 
 #include <algorithm>
 #include <cmath>
