@@ -64,7 +64,7 @@ TEST(MortonGrid, InterleavesTheBitsOfTheCells) {
             for (const uint32_t cell : {x, y, z}) expected = expected << 1 | ((cell >> bit) & 1);
         const MortonGrid grid = grid_of(refs);
         EXPECT_EQ(grid.code(refs.back()), expected);
-        EXPECT_EQ(grid.leading_code(refs.back()), expected >> 33);
+        EXPECT_EQ(grid.leading_code(refs.back()), expected >> 30);
     }
     EXPECT_EQ(grid_of(refs).code(refs[1]), (uint64_t{1} << 63) - 1);  // the far corner is in the last cell
 }
@@ -137,6 +137,28 @@ TEST(MortonOrder, IsThatOfComparisons) {
             ASSERT_EQ(order.ref(i), expected.refs[i]) << run_limit << ", " << i;
         for (size_t i = 0; i + 1 < refs.size(); ++i)
             ASSERT_EQ(order.levels[i], expected.levels[i]) << run_limit << ", " << i;
+    }
+}
+
+TEST(MortonOrder, OfManyTellsMoreOfThemApartAtOnce) {
+    std::vector<PrimRef> refs = whole_grid();
+    Rng rng(9);
+    refs.reserve(MortonOrder::kMany);
+    const auto coordinate = [&] { return static_cast<float>(rng.next_index(1 << 21)); };
+    while (refs.size() < MortonOrder::kMany) {
+        const float x = coordinate(), y = coordinate(), z = coordinate();
+        refs.push_back(at_cell(static_cast<uint32_t>(refs.size()), x, y, z));
+    }
+    const MortonGrid grid = grid_of(refs);
+    // Only leading codes: no set is larger than all.
+    const MortonOrder order = morton_order(refs, MortonOrder::kMany, Task());
+    const auto place = [&](size_t i) { return std::pair(grid.code(refs[order.ref(i)]) >> 30, order.ref(i)); };
+    for (auto [i, a] = std::pair(size_t{0}, place(0)); i + 1 < refs.size(); ++i) {
+        const auto b = place(i + 1);
+        ASSERT_LT(a, b);
+        const auto level = static_cast<uint8_t>(std::countl_zero(a.first ^ b.first) - 31);
+        ASSERT_EQ(order.levels[i], a.first == b.first ? MortonOrder::kEqual : level);
+        a = b;
     }
 }
 

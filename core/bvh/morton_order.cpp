@@ -1,24 +1,40 @@
 #include "core/bvh/morton_order.h"
 
+#include <array>
 #include <cmath>
 
+#include "core/base/assert.h"
 #include "core/base/radix_sort.h"
 
 namespace boxwood {
 
 namespace {
 
-constexpr int kAxisBits = 21, kCodeBits = 3 * kAxisBits, kLeadingBits = 30;
+constexpr int kAxisBits = 21, kCodeBits = 3 * kAxisBits;
+constexpr int kLeadingAxisBits = 11, kLeadingBits = 3 * kLeadingAxisBits;
+static_assert(kLeadingBits + MortonOrder::kRefBits == 64);
 constexpr size_t kCodeGrain = 1 << 14, kRunsAtOnce = 64;
 
+/// Of the codes of so many references. Shorter digits sort faster.
+constexpr int leading_bits(size_t ref_count) {
+    return ref_count < MortonOrder::kMany ? kLeadingBits - 3 : kLeadingBits;
+}
+
 /// Bit i of 21 bits to bit 3 i.
-uint64_t spread(uint64_t v) {
+constexpr uint64_t spread(uint64_t v) {
     v = (v | (v << 32)) & 0x001f00000000ffffull;
     v = (v | (v << 16)) & 0x001f0000ff0000ffull;
     v = (v | (v << 8)) & 0x100f00f00f00f00full;
     v = (v | (v << 4)) & 0x10c30c30c30c30c3ull;
     return (v | (v << 2)) & 0x1249249249249249ull;
 }
+
+/// spread() of what the leading bits of an axis can be.
+constexpr auto kSpread = [] {
+    std::array<uint32_t, 1 << kLeadingAxisBits> table{};
+    for (uint64_t cell = 0; cell < table.size(); ++cell) table[cell] = static_cast<uint32_t>(spread(cell));
+    return table;
+}();
 
 Box half_centers_of(std::span<const PrimRef> refs) {
     std::vector<Box> boxes((refs.size() + kCodeGrain - 1) / kCodeGrain);
@@ -57,8 +73,7 @@ public:
         items_.resize(count);
         parallel_for(count, kCodeGrain, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) {
-                const uint64_t key = order_.keys[run.begin + i];
-                items_[i] = {grid_.code(refs_[static_cast<uint32_t>(key)]), key};
+                items_[i] = {grid_.code(refs_[order_.ref(run.begin + i)]), order_.keys[run.begin + i]};
             }
         });
         std::span<const Item> sorted = items_;
@@ -68,7 +83,8 @@ public:
             });
         } else {
             spare_.resize(count);
-            sorted = radix_sort(std::span(items_), std::span(spare_), 0, kCodeBits - kLeadingBits,
+            const int other_bits = kCodeBits - leading_bits(order_.keys.size());
+            sorted = radix_sort(std::span(items_), std::span(spare_), 0, other_bits,
                                 [](const Item& item) { return item.code; });
         }
         parallel_for(count, kCodeGrain, [&](size_t begin, size_t end) {
@@ -100,9 +116,10 @@ std::vector<Run> find_levels(MortonOrder& order, uint32_t run_limit) {
     std::vector<std::vector<Run>> runs((count + kCodeGrain - 1) / kCodeGrain);
     parallel_for(count - 1, kCodeGrain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            const uint32_t difference = order.leading_code(i) ^ order.leading_code(i + 1);
+            const uint64_t difference = order.leading_code(i) ^ order.leading_code(i + 1);
             order.levels[i] = difference == 0 ? MortonOrder::kEqual
-                                              : static_cast<uint8_t>(std::countl_zero(difference) - 2);
+                                              : static_cast<uint8_t>(std::countl_zero(difference) -
+                                                                     (64 - kLeadingBits));
             if (difference != 0 || (i > 0 && order.leading_code(i - 1) == order.leading_code(i))) continue;
             size_t run_end = i + 2;
             while (run_end < count && order.leading_code(run_end) == order.leading_code(i)) ++run_end;
@@ -129,8 +146,6 @@ MortonGrid::MortonGrid(const Box& half_centers) {
                 extent[other] > extent[axis] || (extent[other] == extent[axis] && other < axis);
             if (is_longer) --shift_[axis];
         }
-        for (uint64_t cell = 0; cell < leading_[axis].size(); ++cell)
-            leading_[axis][cell] = static_cast<uint32_t>(spread(cell) << shift_[axis]);
     }
 }
 
@@ -148,24 +163,30 @@ uint64_t MortonGrid::code(const PrimRef& ref) const {
     return code;
 }
 
-uint32_t MortonGrid::leading_code(const PrimRef& ref) const {
+uint64_t MortonGrid::leading_code(const PrimRef& ref) const {
     const Int4 c = cell(ref) >> (kAxisBits - kLeadingAxisBits);
-    uint32_t code = 0;
-    for (int axis = 0; axis < 3; ++axis) code |= leading_[axis][static_cast<uint32_t>(c[axis])];
+    uint64_t code = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        code |= uint64_t{kSpread[static_cast<uint32_t>(c[axis])]} << shift_[axis];
     return code;
 }
 
 MortonOrder morton_order(std::span<const PrimRef> refs, uint32_t run_limit, const Task& task) {
     MortonOrder order;
     if (refs.empty()) return order;
+    BOXWOOD_ASSERT(refs.size() <= size_t{1} << MortonOrder::kRefBits);
     const MortonGrid grid(half_centers_of(refs));
     order.keys.resize(refs.size());
+    const int unused_bits = kLeadingBits - leading_bits(refs.size());
+    const uint64_t used = ~uint64_t{0} << unused_bits;
     parallel_for(refs.size(), kCodeGrain, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) order.keys[i] = uint64_t{grid.leading_code(refs[i])} << 32 | i;
+        for (size_t i = begin; i < end; ++i)
+            order.keys[i] = (grid.leading_code(refs[i]) & used) << MortonOrder::kRefBits | i;
     });
     if (task.stopped()) return order;
     Array<uint64_t> spare(refs.size());
-    radix_sort(std::span(order.keys), std::span(spare), 32, kLeadingBits, [](uint64_t key) { return key; });
+    radix_sort(std::span(order.keys), std::span(spare), MortonOrder::kRefBits + unused_bits,
+               leading_bits(refs.size()), [](uint64_t key) { return key; });
     order.keys.swap(spare);  // three digits: the result is in the spare
     const std::vector<Run> runs = find_levels(order, run_limit);
     parallel_for(runs.size(), kRunsAtOnce, [&](size_t begin, size_t end) {

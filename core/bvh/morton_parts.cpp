@@ -8,9 +8,9 @@ namespace {
 uint32_t middle(const MortonOrder& order, RefRange range, uint32_t depth) {
     const uint32_t half = range.begin + range.count() / 2;
     if (must_halve(depth, range.count())) return half;
-    const uint32_t difference = order.leading_code(range.begin) ^ order.leading_code(range.end - 1);
+    const uint64_t difference = order.leading_code(range.begin) ^ order.leading_code(range.end - 1);
     if (difference != 0) {
-        const uint64_t bit = uint64_t{std::bit_floor(difference)} << 32;
+        const uint64_t bit = std::bit_floor(difference) << MortonOrder::kRefBits;
         const auto keys = std::span(order.keys).subspan(range.begin, range.count());
         const auto mid =
             std::partition_point(keys.begin(), keys.end(), [bit](uint64_t key) { return (key & bit) == 0; });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 
 #include "core/base/assert.h"
 #include "core/bvh/binned_sah.h"
@@ -53,9 +54,24 @@ std::vector<TopNode> parts_of(std::span<const TopNode> top) {
 /// Calls make_worker() for a thread's memory and worker(part) with it for each part.
 template <class MakeWorker>
 void for_parts(size_t count, const Task& task, const MakeWorker& make_worker) {
+    using Worker = decltype(make_worker());
+    std::mutex mutex;
+    std::vector<std::unique_ptr<Worker>> idle;
+    const auto take = [&] {
+        const std::scoped_lock lock(mutex);
+        std::unique_ptr<Worker> worker;
+        if (!idle.empty()) {
+            worker = std::move(idle.back());
+            idle.pop_back();
+        }
+        return worker;
+    };
     parallel_for(count, kPartsAtOnce, [&](size_t begin, size_t end) {
-        auto worker = make_worker();
-        for (size_t i = begin; i < end && !task.stopped(); ++i) worker(i);
+        std::unique_ptr<Worker> worker = take();
+        if (!worker) worker = std::make_unique<Worker>(make_worker());
+        for (size_t i = begin; i < end && !task.stopped(); ++i) (*worker)(i);
+        const std::scoped_lock lock(mutex);
+        idle.push_back(std::move(worker));
     });
 }
 
@@ -80,13 +96,14 @@ WideBvh<8> build_preview(const Mesh& mesh, std::span<const PrimRef> refs, const 
     Array<Pack8> packs(pack_count);
     const PackFiller filler(mesh);
     std::vector<WidePiece> pieces(parts.size());
+    PieceNodes memory(pack_count);
     for_parts(parts.size(), task, [&] {
-        return [&, tree = PartTree(part_costs(), kMortonPartSize),
+        return [&, tree = PartTree(part_costs(), kMortonPartSize), writer = PieceWriter(memory),
                 build = std::make_unique<MortonPartBuild>()](size_t i) mutable {
             const auto count = static_cast<uint32_t>(firsts[i].size()) - 1;
             const PartRoot root = build->build(order, firsts[i], parts[i].depth, filler,
                                                std::span(packs).subspan(first_packs[i], count), tree);
-            pieces[i] = make_piece(tree, root, count);
+            pieces[i] = writer.write(tree, root, count);
         };
     });
     if (task.stopped()) return {};
@@ -102,12 +119,13 @@ WideBvh<8> build_balanced(const Mesh& mesh, std::span<const PrimRef> refs, const
     const std::vector<TopNode> parts = parts_of(divide_morton(order, kBinnedPartSize));
     std::vector<WidePiece> pieces(parts.size());
     Array<PackPrims> prims(refs.size());  // of each part where its references begin
+    PieceNodes memory(refs.size());
     for_parts(parts.size(), task, [&] {
-        return [&, tree = PartTree(part_costs(), kBinnedPartSize),
+        return [&, tree = PartTree(part_costs(), kBinnedPartSize), writer = PieceWriter(memory),
                 build = std::make_unique<BinnedPartBuild>()](size_t i) mutable {
             const PartRoot root = build->build(refs, order, parts[i].range, kMostTopDepth, tree);
             std::ranges::copy(build->packs(), &prims[parts[i].range.begin]);
-            pieces[i] = make_piece(tree, root, static_cast<uint32_t>(build->packs().size()));
+            pieces[i] = writer.write(tree, root, static_cast<uint32_t>(build->packs().size()));
         };
     });
     if (task.stopped()) return {};

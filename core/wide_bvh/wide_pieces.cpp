@@ -103,12 +103,37 @@ void copy_nodes(const WidePiece& piece, const Place& place, std::span<Node> to) 
     }
 }
 
-/// Adds the node that stands for a subtree, and all below it.
-void add_node(const PartTree& tree, uint32_t root, WidePiece& piece) {
+}  // namespace
+
+std::span<Node> PieceNodes::take(size_t least) {
+    constexpr size_t kAtOnce = (size_t{8} << 20) / sizeof(Node);
+    const std::scoped_lock lock(mutex_);
+    return arrays_.emplace_back(std::max(least, std::min(kAtOnce, most_)));
+}
+
+WidePiece PieceWriter::write(const PartTree& tree, const PartRoot& root, uint32_t pack_count) {
+    WidePiece piece;
+    piece.pack_count = pack_count;
+    piece.box = root.box;
+    piece.cost = root.costs.costs.least[0];
+    if (tree.is_leaf(0)) {
+        piece.leaf_count = 1;
+        return piece;
+    }
+    // A node has two children or more, so that there are fewer nodes than leaves.
+    if (room_.size() < pack_count) room_ = memory_.take(pack_count);
+    node_count_ = 0;
+    add_node(tree, 0, piece);
+    piece.nodes = room_.first(node_count_);
+    room_ = room_.subspan(node_count_);
+    return piece;
+}
+
+/// Adds the node that stands for a subtree, and all below it; its number.
+uint32_t PieceWriter::add_node(const PartTree& tree, uint32_t root, WidePiece& piece) {
     const WideParts<8> parts = tree.children_of(root);
-    const size_t index = piece.nodes.size();
-    piece.nodes.resize(index + 1);
-    Node& node = piece.nodes[index];
+    const uint32_t index = node_count_++;
+    Node& node = room_[index];
     set_boxes(tree, parts, node);
     node.first_leaf = piece.leaf_count;
     for (uint32_t lane = 0; lane < parts.count; ++lane) {
@@ -118,27 +143,10 @@ void add_node(const PartTree& tree, uint32_t root, WidePiece& piece) {
     }
     set_order<8>(node);
     for (uint32_t lane = 0; lane < parts.count; ++lane) {
-        if (parts.parts[lane].is_leaf) continue;
-        piece.nodes[index].children[lane] = WideChild::inner(static_cast<uint32_t>(piece.nodes.size()));
-        add_node(tree, parts.parts[lane].node, piece);
+        const WidePart part = parts.parts[lane];
+        if (!part.is_leaf) node.children[lane] = WideChild::inner(add_node(tree, part.node, piece));
     }
-}
-
-}  // namespace
-
-WidePiece make_piece(const PartTree& tree, const PartRoot& root, uint32_t pack_count) {
-    constexpr size_t kPacksOfANode = 5;  // about; more nodes need more memory for a moment
-    WidePiece piece;
-    piece.pack_count = pack_count;
-    piece.box = root.box;
-    piece.cost = root.costs.costs.least[0];
-    if (tree.is_leaf(0)) {
-        piece.leaf_count = 1;
-    } else {
-        piece.nodes.reserve(pack_count / kPacksOfANode + 1);
-        add_node(tree, 0, piece);
-    }
-    return piece;
+    return index;
 }
 
 JoinedPieces join_pieces(const PartTree& top, std::span<const WidePiece> pieces) {

@@ -1,6 +1,9 @@
 #pragma once
 
-#include "core/base/task.h"
+#include <deque>
+#include <mutex>
+
+#include "core/base/array.h"
 #include "core/wide_bvh/part_tree.h"
 
 namespace boxwood {
@@ -8,7 +11,7 @@ namespace boxwood {
 /// What a part of the mesh becomes in an eight-wide hierarchy: a subtree, or, where there is no node, a leaf.
 /// Nodes, leaves and packs are numbered from 0.
 struct WidePiece {
-    Array<WideBvh<8>::Node> nodes;
+    std::span<const WideBvh<8>::Node> nodes;  ///< of PieceNodes
     uint32_t leaf_count = 0, pack_count = 0;
     Box4 box{};
     double cost = 0.0;  ///< see PartTree
@@ -16,8 +19,35 @@ struct WidePiece {
     bool is_leaf() const { return nodes.empty(); }
 };
 
-/// The piece that a tree with `pack_count` leaves becomes.
-WidePiece make_piece(const PartTree& tree, const PartRoot& root, uint32_t pack_count);
+/// Memory for the nodes of all pieces, in few large arrays: what is allocated and freed in small ones is not
+/// kept from one build to the next, and the system clears it each time.
+class PieceNodes {
+public:
+    /// Of all pieces there will be so many at most.
+    explicit PieceNodes(size_t most) : most_(most) {}
+    /// Unused ones for the next pieces of a thread, `least` or more. Thread-safe.
+    std::span<WideBvh<8>::Node> take(size_t least);
+
+private:
+    const size_t most_;
+    std::mutex mutex_;
+    std::deque<Array<WideBvh<8>::Node>> arrays_;
+};
+
+/// Makes pieces out of trees, for one thread.
+class PieceWriter {
+public:
+    explicit PieceWriter(PieceNodes& memory) : memory_(memory) {}
+    /// Of a tree with `pack_count` leaves.
+    WidePiece write(const PartTree& tree, const PartRoot& root, uint32_t pack_count);
+
+private:
+    uint32_t add_node(const PartTree& tree, uint32_t root, WidePiece& piece);
+
+    PieceNodes& memory_;
+    std::span<WideBvh<8>::Node> room_;  ///< for the next piece
+    uint32_t node_count_ = 0;           ///< that this piece has of it
+};
 
 /// A hierarchy whose top is a tree with pieces as its parts, each of which occurs once.
 struct JoinedPieces {
