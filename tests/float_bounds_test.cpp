@@ -109,13 +109,14 @@ HWY_NOINLINE void answer_with(std::span<const FloatCase> cases, std::span<FloatA
         if (!answer.is_usable) continue;
         const FloatRay<mode, 4, Bounds> ray(rays, 0);
         TrianglePack<4> pack{};
-        HWY_ALIGN float planes[6][8], entries[8], exits[8];
+        WideBvh<8>::Node node;
+        HWY_ALIGN float entries[8], exits[8];
         const Vec3 corners[3] = {one_case.triangle.a, one_case.triangle.b, one_case.triangle.c};
         for (int axis = 0; axis < 3; ++axis) {
             for (int corner = 0; corner < 3; ++corner)
                 hn::Store(hn::Set(d, corners[corner][axis]), d, pack.corners[corner][axis]);
-            std::fill_n(planes[axis], 8, one_case.box.lower[axis]);
-            std::fill_n(planes[3 + axis], 8, one_case.box.upper[axis]);
+            std::ranges::fill(node.lower[axis], one_case.box.lower[axis]);
+            std::ranges::fill(node.upper[axis], one_case.box.upper[axis]);
         }
         PackHits<4> hits;
         answer.is_open = test_pack(pack, ray, one_case.ray.t_max, hits);
@@ -124,10 +125,10 @@ HWY_NOINLINE void answer_with(std::span<const FloatCase> cases, std::span<FloatA
         answer.is_plane_sure = (bits_of(d, plane.is_sure) & 1) != 0;
         answer.lower = hn::GetLane(plane.lower);
         answer.upper = hn::GetLane(plane.upper);
-        const BoxRay<8> box_ray(rays, 0);
+        const BoxRay<8> box_ray(rays, 0, &node);
         const typename BoxRay<8>::D d8;
-        hn::Store(box_ray.entry(planes[0]), d8, entries);
-        hn::Store(box_ray.exit(planes[0], one_case.ray.t_max), d8, exits);
+        hn::Store(box_ray.entry(0), d8, entries);
+        hn::Store(box_ray.exit(0, one_case.ray.t_max), d8, exits);
         answer.entry = entries[0];
         answer.exit = exits[0];
     }

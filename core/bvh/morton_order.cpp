@@ -117,9 +117,9 @@ std::vector<Run> find_levels(MortonOrder& order, uint32_t run_limit) {
     parallel_for(count - 1, kCodeGrain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const uint64_t difference = order.leading_code(i) ^ order.leading_code(i + 1);
-            order.levels[i] = difference == 0 ? MortonOrder::kEqual
-                                              : static_cast<uint8_t>(std::countl_zero(difference) -
-                                                                     (64 - kLeadingBits));
+            order.levels[i] = difference == 0
+                                  ? MortonOrder::kEqual
+                                  : static_cast<uint8_t>(std::countl_zero(difference) - (64 - kLeadingBits));
             if (difference != 0 || (i > 0 && order.leading_code(i - 1) == order.leading_code(i))) continue;
             size_t run_end = i + 2;
             while (run_end < count && order.leading_code(run_end) == order.leading_code(i)) ++run_end;

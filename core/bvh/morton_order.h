@@ -38,9 +38,7 @@ struct MortonOrder {
     /// Between entries i and i + 1: the leading bits that their codes have in common, kEqual for equal ones.
     Array<uint8_t> levels;
 
-    uint32_t ref(size_t i) const {
-        return static_cast<uint32_t>(keys[i] & ((uint64_t{1} << kRefBits) - 1));
-    }
+    uint32_t ref(size_t i) const { return static_cast<uint32_t>(keys[i] & ((uint64_t{1} << kRefBits) - 1)); }
     uint64_t leading_code(size_t i) const { return keys[i] >> kRefBits; }
 };
 

@@ -241,11 +241,13 @@ struct BoxRay {
     using V = hn::Vec<D>;
     V near_inverse_x, near_inverse_y, near_inverse_z, near_x, near_y, near_z;
     V far_inverse_x, far_inverse_y, far_inverse_z, far_x, far_y, far_z, t_min;
-    /// Of the planes in a node, in floats.
-    size_t plane_near_x, plane_near_y, plane_near_z, plane_far_x, plane_far_y, plane_far_z;
+    /// Those of the first node's planes that come first and last along the ray.
+    const float *near_planes_x, *near_planes_y, *near_planes_z;
+    const float *far_planes_x, *far_planes_y, *far_planes_z;
 
     template <Mode mode, class Bounds>
-    HWY_INLINE BoxRay(const FloatRays<mode, Bounds>& rays, size_t i) {
+    HWY_INLINE BoxRay(const FloatRays<mode, Bounds>& rays, size_t i,
+                      const typename WideBvh<Width>::Node* nodes) {
         const D d;
         near_inverse_x = hn::Set(d, rays.near_inverse[0][i]);
         far_inverse_x = hn::Set(d, rays.far_inverse[0][i]);
@@ -261,27 +263,33 @@ struct BoxRay {
         far_z = hn::Set(d, rays.far_offset[2][i]);
         t_min = hn::Set(d, rays.t_min[i]);
         constexpr size_t kUpper = size_t{3} * Width;
+        const float* const planes = nodes->lower[0];
         const size_t octant = rays.octant[i];
-        plane_near_x = (octant & 1) * kUpper;
-        plane_near_y = (octant >> 1 & 1) * kUpper + Width;
-        plane_near_z = (octant >> 2) * kUpper + size_t{2} * Width;
-        plane_far_x = kUpper - plane_near_x;
-        plane_far_y = kUpper + size_t{2} * Width - plane_near_y;
-        plane_far_z = kUpper + size_t{4} * Width - plane_near_z;
+        const size_t x = (octant & 1) * kUpper, y = (octant >> 1 & 1) * kUpper, z = (octant >> 2) * kUpper;
+        near_planes_x = planes + x;
+        near_planes_y = planes + y + Width;
+        near_planes_z = planes + z + size_t{2} * Width;
+        far_planes_x = planes + (kUpper - x);
+        far_planes_y = planes + (kUpper - y) + Width;
+        far_planes_z = planes + (kUpper - z) + size_t{2} * Width;
     }
-    HWY_INLINE V entry(const float* planes) const {
+    /// `at`: of a node's first lane to be tested, in floats from the first node's first lane.
+    HWY_INLINE V entry(size_t at) const {
         const D d;
-        return hn::Max(
-            hn::Max(hn::MulAdd(hn::Load(d, planes + plane_near_x), near_inverse_x, near_x),
-                    hn::MulAdd(hn::Load(d, planes + plane_near_y), near_inverse_y, near_y)),
-            hn::Max(hn::MulAdd(hn::Load(d, planes + plane_near_z), near_inverse_z, near_z), t_min));
+        return hn::Max(hn::Max(hn::MulAdd(hn::Load(d, near_planes_x + at), near_inverse_x, near_x),
+                               hn::MulAdd(hn::Load(d, near_planes_y + at), near_inverse_y, near_y)),
+                       hn::Max(hn::MulAdd(hn::Load(d, near_planes_z + at), near_inverse_z, near_z), t_min));
     }
-    HWY_INLINE V exit(const float* planes, float limit) const {
+    HWY_INLINE V exit(size_t at, float limit) const {
         const D d;
         return hn::Min(
-            hn::Min(hn::MulAdd(hn::Load(d, planes + plane_far_x), far_inverse_x, far_x),
-                    hn::MulAdd(hn::Load(d, planes + plane_far_y), far_inverse_y, far_y)),
-            hn::Min(hn::MulAdd(hn::Load(d, planes + plane_far_z), far_inverse_z, far_z), hn::Set(d, limit)));
+            hn::Min(hn::MulAdd(hn::Load(d, far_planes_x + at), far_inverse_x, far_x),
+                    hn::MulAdd(hn::Load(d, far_planes_y + at), far_inverse_y, far_y)),
+            hn::Min(hn::MulAdd(hn::Load(d, far_planes_z + at), far_inverse_z, far_z), hn::Set(d, limit)));
+    }
+    /// See entry().
+    static HWY_INLINE size_t place_of(uint32_t node) {
+        return size_t{node} * (sizeof(typename WideBvh<Width>::Node) / sizeof(float));
     }
 };
 

@@ -287,14 +287,15 @@ struct Stack {
 /// octant, which is returned; the one on top of the stack if there is none. The nearest does not wait for
 /// the stack's memory.
 template <uint32_t Width>
-HWY_INLINE WideChild next_child(const typename WideBvh<Width>::Node& node, const BoxRay<Width>& ray,
+HWY_INLINE WideChild next_child(const WideBvh<Width>& bvh, uint32_t index, const BoxRay<Width>& ray,
                                 uint32_t octant, float limit, Stack<Width>& stack, uint32_t& count) {
     const hn::CappedTag<float, Width> d;
     using V = hn::Vec<decltype(d)>;
-    const float* const planes = node.lower[0];
+    const typename WideBvh<Width>::Node& node = bvh.nodes[index];
+    const size_t at = ray.place_of(index);
     if constexpr (hn::MaxLanes(d) == Width) {
         const hn::RebindToUnsigned<decltype(d)> du;
-        const V entry = ray.entry(planes), exit = ray.exit(planes, limit);
+        const V entry = ray.entry(at), exit = ray.exit(at, limit);
         const uint32_t met = bits_of(d, hn::Le(entry, exit));
         if (met == 0) return stack.pop(count);
         if ((met & (met - 1)) == 0) return node.children[std::countr_zero(met)];
@@ -321,9 +322,9 @@ HWY_INLINE WideChild next_child(const typename WideBvh<Width>::Node& node, const
         HWY_ALIGN float entries[Width];
         uint32_t met = 0;
         for (size_t first = 0; first < Width; first += hn::Lanes(d)) {
-            const V entry = ray.entry(planes + first);
+            const V entry = ray.entry(at + first);
             hn::Store(entry, d, entries + first);
-            met |= bits_of(d, hn::Le(entry, ray.exit(planes + first, limit))) << first;
+            met |= bits_of(d, hn::Le(entry, ray.exit(at + first, limit))) << first;
         }
         for (uint32_t rank = Width; met != 0; --rank) {
             const uint32_t lane = node.lane_at(octant, rank - 1);
@@ -338,13 +339,14 @@ HWY_INLINE WideChild next_child(const typename WideBvh<Width>::Node& node, const
 
 /// The same in any order, without parameters: any hit will do.
 template <uint32_t Width>
-HWY_INLINE WideChild next_unordered(const typename WideBvh<Width>::Node& node, const BoxRay<Width>& ray,
+HWY_INLINE WideChild next_unordered(const WideBvh<Width>& bvh, uint32_t index, const BoxRay<Width>& ray,
                                     float limit, uint32_t* stack, uint32_t& count) {
     const hn::CappedTag<float, Width> d;
-    const float* const planes = node.lower[0];
+    const typename WideBvh<Width>::Node& node = bvh.nodes[index];
+    const size_t at = ray.place_of(index);
     uint32_t met = 0;
     for (size_t first = 0; first < Width; first += hn::Lanes(d))
-        met |= bits_of(d, hn::Le(ray.entry(planes + first), ray.exit(planes + first, limit))) << first;
+        met |= bits_of(d, hn::Le(ray.entry(at + first), ray.exit(at + first, limit))) << first;
     if (met == 0) return {stack[--count]};
     const WideChild nearest = node.children[std::countr_zero(met)];
     met &= met - 1;
@@ -364,9 +366,8 @@ HWY_INLINE WideChild next_unordered(const typename WideBvh<Width>::Node& node, c
 template <Mode mode, uint32_t Width>
 HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>& rays, size_t i,
                                Search<mode, Width>& search) {
-    const BoxRay<Width> box_ray(rays, i);
+    const BoxRay<Width> box_ray(rays, i, bvh.nodes.data());
     const FloatRay<mode, Width> ray(rays, i);
-    const auto* const nodes = bvh.nodes.data();
     const auto* const packs = bvh.packs.data();
     const uint32_t octant = rays.octant[i];
     Stack<Width> stack;
@@ -374,7 +375,7 @@ HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>&
     WideChild child = WideChild::inner(0);
     while (true) {
         while (child.is_inner())
-            child = next_child<Width>(nodes[child.node()], box_ray, octant, search.limit, stack, count);
+            child = next_child(bvh, child.node(), box_ray, octant, search.limit, stack, count);
         if (child.is_empty()) return;
         const auto* pack = packs + child.first_pack();
         const auto* const end = pack + child.pack_count();
@@ -391,9 +392,8 @@ HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>&
 template <Mode mode, uint32_t Width>
 HWY_NOINLINE bool find_any(const WideBvh<Width>& bvh, const FloatRays<mode>& rays, size_t i,
                            Occlusion<mode, Width>& occlusion) {
-    const BoxRay<Width> box_ray(rays, i);
+    const BoxRay<Width> box_ray(rays, i, bvh.nodes.data());
     const FloatRay<mode, Width> ray(rays, i);
-    const auto* const nodes = bvh.nodes.data();
     const auto* const packs = bvh.packs.data();
     const float limit = rays.t_max[i];
     HWY_ALIGN uint32_t stack[Stack<Width>::kSize];
@@ -401,8 +401,7 @@ HWY_NOINLINE bool find_any(const WideBvh<Width>& bvh, const FloatRays<mode>& ray
     uint32_t count = 1;
     WideChild child = WideChild::inner(0);
     while (true) {
-        while (child.is_inner())
-            child = next_unordered<Width>(nodes[child.node()], box_ray, limit, stack, count);
+        while (child.is_inner()) child = next_unordered(bvh, child.node(), box_ray, limit, stack, count);
         if (child.is_empty()) return false;
         const auto* pack = packs + child.first_pack();
         const auto* const end = pack + child.pack_count();
