@@ -32,6 +32,16 @@ void cast_part(const Contestant& contestant, const RaySet& set, size_t begin, si
     }
 }
 
+/// Where there are several builds, one more goes before them, which finds no memory at hand: it is not
+/// counted.
+template <class BuildOnce>
+double median_build_ms(int builds, const BuildOnce& build_once) {
+    if (builds > 1) build_once();
+    std::vector<double> times;
+    for (int i = 0; i < builds; ++i) times.push_back(build_once());
+    return median_of(times);
+}
+
 Contestant in_mode(Mode mode, const std::string& recipe) {
     Contestant one;
     one.recipe = recipe;
@@ -88,21 +98,20 @@ bool Contestant::takes(Casting casting) const {
 
 std::optional<Structure> add_recipe(std::vector<Contestant>& contestants, const Recipe& recipe,
                                     const Mesh& mesh, const ContestantSettings& settings, Task& task) {
-    std::vector<double> times;
     std::optional<TimedBuild> built;
-    for (int i = 0; i < settings.builds; ++i) {
+    const double build_ms = median_build_ms(settings.builds, [&] {
         built.reset();
-        built = build_timed(recipe, mesh, settings.threads, task);
-        if (!built) return std::nullopt;
-        times.push_back(built->ms());
-    }
+        if (!task.stopped()) built = build_timed(recipe, mesh, settings.threads, task);
+        return built ? built->ms() : 0.0;
+    });
+    if (!built) return std::nullopt;
     const std::string text = print(recipe);
     for (const Mode mode : {Mode::Exact, Mode::Fast}) {
         if (mode == Mode::Fast && !settings.with_fast_mode) continue;
         std::array both{structure_in(mode, text, built->structure, mesh, task),
                         renderer_in(mode, text, built->structure, mesh, settings, task)};
         for (Contestant& one : both) {
-            one.build_ms = median_of(times);
+            one.build_ms = build_ms;
             one.bytes = built->structure.byte_count();
             contestants.push_back(std::move(one));
         }
@@ -113,15 +122,14 @@ std::optional<Structure> add_recipe(std::vector<Contestant>& contestants, const 
 void add_embree(std::vector<Contestant>& contestants, const EmbreeVariant& variant, const Mesh& mesh,
                 const ContestantSettings& settings) {
     const ThreadLimit limit(settings.threads);
-    std::vector<double> times;
     std::shared_ptr<EmbreeScene> scene;
-    for (int i = 0; i < settings.builds; ++i) {
+    const double build_ms = median_build_ms(settings.builds, [&] {
         scene.reset();
         scene = std::make_shared<EmbreeScene>(mesh, variant);
         const double begin = clock_ms(settings.threads);
         scene->build();
-        times.push_back(clock_ms(settings.threads) - begin);
-    }
+        return clock_ms(settings.threads) - begin;
+    });
     Contestant one;
     one.name = variant.name;
     one.closest_hits = [scene](std::span<const Ray> rays, std::span<Hit> hits) {
@@ -132,7 +140,7 @@ void add_embree(std::vector<Contestant>& contestants, const EmbreeVariant& varia
     };
     one.packets = [scene](std::span<const Ray> rays, std::span<const uint32_t> /*pixels*/,
                           std::span<Hit> hits) { scene->closest_hits_in_packets(rays, hits); };
-    one.build_ms = median_of(times);
+    one.build_ms = build_ms;
     one.bytes = scene->byte_count();
     contestants.push_back(std::move(one));
 }

@@ -34,7 +34,7 @@ struct Contestant {
 /// How contestants are built, and what the renderer among them looks at.
 struct ContestantSettings {
     int threads = 1;
-    int builds = 1;              ///< of each, the median of their times counts
+    int builds = 1;              ///< of each, the median of their times counts; several: after one more
     bool with_fast_mode = true;  ///< beside exact mode
     Camera camera;
     int size = 1024;  ///< pixels of the square picture along a side

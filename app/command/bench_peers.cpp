@@ -70,7 +70,8 @@ ExitCode run_bench_peers(Arguments arguments) {
                  "time for the rounds of each kind of rays, at least (default: 2)");
     options.integer("--sample", sample_count, 0, 100000000,
                     "rays of each kind judged by exact arithmetic, besides those disputed (default: 2000)");
-    options.integer("--builds", settings.builds, 1, 1000, "builds of each structure (default: 1)");
+    options.integer("--builds", settings.builds, 1, 1000,
+                    "builds of each structure; of several, after one more (default: 1)");
     options.flag("--exact-only", exact_only, "leave out fast mode");
     camera_options.add_to(options);
     options.text("--json", "FILE", json, "write the rows as JSON (- for standard output)");

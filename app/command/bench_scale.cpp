@@ -74,7 +74,8 @@ ExitCode run_bench_scale(Arguments arguments) {
     options.integer("--rounds", rounds, 1, 1000000, "rounds, at least (default: 5)");
     options.real("--seconds", settings.seconds, 0.0, 1e6,
                  "time for the rounds of each kind of rays, at least (default: 1)");
-    options.integer("--builds", settings.builds, 1, 1000, "builds of each structure (default: 3)");
+    options.integer("--builds", settings.builds, 1, 1000,
+                    "builds of each structure, after one more (default: 3)");
     options.text("--json", "FILE", json, "write the rows as JSON (- for standard output)");
     options.footer(kScaleFooter + recipe_help());
     if (!options.parse(arguments)) return ExitCode::Done;

@@ -283,6 +283,16 @@ struct Stack {
     }
 };
 
+/// Of hierarchies of more bytes hardly anything stays in the cache.
+constexpr size_t kLarge = size_t{128} << 20;
+
+/// The next two packs, which are those of neighbouring leaves, where the next rays often go.
+template <uint32_t Width>
+HWY_INLINE void prefetch_after(const TrianglePack<Width>* pack) {
+    const char* const bytes = reinterpret_cast<const char*>(pack + 1);
+    for (size_t at = 0; at < 2 * sizeof(*pack); at += 64) hwy::Prefetch(bytes + at);
+}
+
 /// Adds the children whose boxes the ray meets to the stack, but for the nearest in the order of the ray's
 /// octant, which is returned; the one on top of the stack if there is none. The nearest does not wait for
 /// the stack's memory.
@@ -369,6 +379,7 @@ HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>&
     const BoxRay<Width> box_ray(rays, i, bvh.nodes.data());
     const FloatRay<mode, Width> ray(rays, i);
     const auto* const packs = bvh.packs.data();
+    const bool is_large = bvh.byte_count() > kLarge;
     const uint32_t octant = rays.octant[i];
     Stack<Width> stack;
     uint32_t count = 1;
@@ -379,6 +390,7 @@ HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>&
         if (child.is_empty()) return;
         const auto* pack = packs + child.first_pack();
         const auto* const end = pack + child.pack_count();
+        if (is_large) prefetch_after(pack);
         const float limit = search.limit;
         for (; pack != end; ++pack) {
             PackHits<Width> hits;
@@ -395,6 +407,7 @@ HWY_NOINLINE bool find_any(const WideBvh<Width>& bvh, const FloatRays<mode>& ray
     const BoxRay<Width> box_ray(rays, i, bvh.nodes.data());
     const FloatRay<mode, Width> ray(rays, i);
     const auto* const packs = bvh.packs.data();
+    const bool is_large = bvh.byte_count() > kLarge;
     const float limit = rays.t_max[i];
     HWY_ALIGN uint32_t stack[Stack<Width>::kSize];
     stack[0] = kNoIndex;
@@ -405,6 +418,7 @@ HWY_NOINLINE bool find_any(const WideBvh<Width>& bvh, const FloatRays<mode>& ray
         if (child.is_empty()) return false;
         const auto* pack = packs + child.first_pack();
         const auto* const end = pack + child.pack_count();
+        if (is_large) prefetch_after(pack);
         for (; pack != end; ++pack) {
             PackHits<Width> hits;
             if (test_pack(*pack, ray, limit, hits) && occlusion.is_hit(*pack, hits)) return true;
