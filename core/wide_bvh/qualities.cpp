@@ -24,7 +24,8 @@ constexpr uint32_t kBinnedPartSize = 4096;  ///< triangles of a part of `balance
 /// % (bench/RESULTS.md); architecture and machines have more, up to 18, and gain up to a sixth.
 constexpr double kLooseBoxes = 4.0;
 constexpr size_t kViewers = 2048;  ///< whose rays tell `best` whether pieces or whole triangles are cheaper
-/// Whole triangles must be cheaper by more than these rays differ from those of one view.
+/// Whole triangles are taken where they cost less than this times the pieces: the rays of a view differ from
+/// those of the viewers by a few percent.
 constexpr double kClearlyLess = 0.95;
 constexpr size_t kPartsAtOnce = 8;  ///< that a thread takes with the same memory
 
@@ -189,8 +190,8 @@ WideBvh<8> Balanced::build(const Mesh& mesh, std::span<const PrimRef> refs, Task
 
 WideBvh<8> Best::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const {
     const auto finish = [&](const Bvh2& bvh) {
-        if (task.stopped()) return WideBvh<8>{};
-        return Collapse<8>{}.apply(mesh, refs, Optimize{}.apply(mesh, refs, bvh, task), task);
+        const Bvh2 optimized = task.stopped() ? Bvh2{} : Optimize{}.apply(mesh, refs, bvh, task);
+        return task.stopped() ? WideBvh<8>{} : Collapse<8>{}.apply(mesh, refs, optimized, task);
     };
     WideBvh<8> whole = finish(BinnedSah{}.build(mesh, refs, task));
     if (refs.empty() || task.stopped()) return whole;
