@@ -87,10 +87,11 @@ void status_line(const Context& context) {
         }
     }
     if (text.empty()) text = "no boxes are drawn";
-    colored(context.colors.dim, text);
-    tooltip(context, text);
     const std::string keys = "? keys";
-    ImGui::SameLine(rect.width - ImGui::CalcTextSize(keys.c_str()).x - 10.0f * context.scale);
+    const float keys_at = rect.width - ImGui::CalcTextSize(keys.c_str()).x - 10.0f * context.scale;
+    colored(context.colors.dim, beginning_of(text, keys_at - ImGui::GetCursorPosX() - 10.0f * context.scale));
+    tooltip(context, text);
+    ImGui::SameLine(keys_at);
     colored(context.colors.dim, keys);
     ImGui::PopFont();
     ImGui::End();

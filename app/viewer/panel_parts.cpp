@@ -7,9 +7,6 @@
 
 namespace boxwood::panel {
 
-namespace {
-
-/// As much of a text's beginning as fits into a width, with dots where something is left out.
 std::string beginning_of(const std::string& text, float width) {
     const auto is_inside_character = [&](size_t i) {
         return (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80;
@@ -21,8 +18,6 @@ std::string beginning_of(const std::string& text, float width) {
     }
     return shown;
 }
-
-}  // namespace
 
 void tooltip(const Context& context, const std::string& text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;

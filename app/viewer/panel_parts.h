@@ -21,6 +21,9 @@ struct Context {
     float scale;  ///< of the interface
 };
 
+/// As much of a text's beginning as fits into a width, with dots where something is left out.
+std::string beginning_of(const std::string& text, float width);
+
 /// Shows `text` while the last item is hovered, wrapped.
 void tooltip(const Context& context, const std::string& text);
 /// Heading of a group of widgets; `note` stands dim at its right end.

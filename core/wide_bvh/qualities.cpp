@@ -207,7 +207,7 @@ WideBvh<8> Best::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& ta
         return sampled_cost(bvh, mesh, rays, collapse_costs(), task);
     };
     if (kClearlyLess * cost_of(cut) < cost_of(whole)) return cut;
-    task.skipped.add("cheaper whole: not split in space", refs.size());
+    task.skipped.add("cheaper whole than split", refs.size());
     return whole;
 }
 
