@@ -147,15 +147,13 @@ void add_embree(std::vector<Contestant>& contestants, const EmbreeVariant& varia
 
 double cast(const Contestant& contestant, const RaySet& set, int threads, Answers& answers) {
     BOXWOOD_ASSERT(!flushes_to_zero());
-    if (threads == 1) {
-        const CorePin pin;
-        const double begin = clock_ms(threads);
-        cast_part(contestant, set, 0, set.rays.size(), answers);
-        return clock_ms(threads) - begin;
-    }
     const double begin = clock_ms(threads);
-    parallel_for(set.rays.size(), kBatch,
-                 [&](size_t first, size_t end) { cast_part(contestant, set, first, end, answers); });
+    if (threads == 1) {
+        cast_part(contestant, set, 0, set.rays.size(), answers);
+    } else {
+        parallel_for(set.rays.size(), kBatch,
+                     [&](size_t first, size_t end) { cast_part(contestant, set, first, end, answers); });
+    }
     return clock_ms(threads) - begin;
 }
 

@@ -51,8 +51,8 @@ std::optional<Structure> add_recipe(std::vector<Contestant>& contestants, const 
 void add_embree(std::vector<Contestant>& contestants, const EmbreeVariant& variant, const Mesh& mesh,
                 const ContestantSettings& settings);
 
-/// Casts the whole set on so many threads, a single one pinned to its core. The milliseconds it took, by
-/// clock_ms. `answers` has the set's size.
+/// Casts the whole set on so many threads. The milliseconds it took, by clock_ms. `answers` has the set's
+/// size.
 double cast(const Contestant& contestant, const RaySet& set, int threads, Answers& answers);
 
 }  // namespace boxwood::bench

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "bench/contestant.h"
@@ -18,10 +19,13 @@ namespace boxwood::bench {
 
 namespace {
 
-/// Rounds over all contestants until the time is used.
+/// Rounds over all contestants until the time is used. On one thread all of them on one core: another one may
+/// be slower, where something beside this machine shares it.
 void time_rounds(std::span<const Contestant> contestants, const RaySet& set, int threads,
                  const PeerSettings& settings, std::span<PeerRow> rows, Task& task) {
     const ThreadLimit limit(threads);
+    std::optional<CorePin> pin;
+    if (threads == 1) pin.emplace();
     std::vector<size_t> order(contestants.size());
     for (size_t i = 0; i < order.size(); ++i) order[i] = i;
     Answers answers;
