@@ -66,8 +66,7 @@ TEST(Qualities, PacksOfThePreviewEndWhereCodesPart) {
 }
 
 TEST(Qualities, BestSplitsSpaceWhereBoxesAreLooseAndPiecesNotDearer) {
-    const std::string tight = "boxes are tight: not split in space",
-                      whole = "cheaper whole than split";
+    const std::string tight = "boxes are tight: not split in space", whole = "cheaper whole than split";
     const std::tuple<const char*, bool, bool> cases[] = {
         {"terrain@tris=10k", true, false}, {"spaceship", false, false}, {"kitchen", false, true}};
     for (const auto& [name, is_tight, is_cheaper_whole] : cases) {
