@@ -44,7 +44,7 @@ struct MortonOrder {
 
 /// Sorts by leading code; where more than `run_limit` references share one, these by their whole code; equal
 /// ones by index. In runs up to `run_limit` the references keep their order, and their levels are kEqual.
-/// Fewer than 2^31 references.
+/// At most 2^31 references.
 MortonOrder morton_order(std::span<const PrimRef> refs, uint32_t run_limit, const Task& task);
 
 }  // namespace boxwood
