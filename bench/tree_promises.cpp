@@ -23,6 +23,7 @@ constexpr const char* kPromises[] = {
     "sah_cost: bvh-spatial-splits > optimize <= bvh-spatial-splits",
     "wide_cost: bvh-sweep-sah > wide4 <= bvh-sweep-sah > wide4(collapse=greedy)",
     "wide_cost: bvh-sweep-sah > wide8 <= bvh-sweep-sah > wide8(collapse=greedy)",
+    "wide_cost: bvh-sweep-sah > wide16 <= bvh-sweep-sah > wide16(collapse=greedy)",
 };
 
 std::string trimmed(const std::string& text) {
@@ -72,6 +73,7 @@ double cost_of_wide(const WideBvh<Width>& bvh) {
 double wide_cost_of(const Built& built) {
     if (const auto* wide4 = built.structure.as<WideBvh<4>>()) return cost_of_wide(*wide4);
     if (const auto* wide8 = built.structure.as<WideBvh<8>>()) return cost_of_wide(*wide8);
+    if (const auto* wide16 = built.structure.as<WideBvh<16>>()) return cost_of_wide(*wide16);
     throw Error(ExitCode::WrongUsage, "wide_cost is of wide BVHs, " + print(built.recipe) + " makes none");
 }
 

@@ -13,7 +13,7 @@ namespace boxwood::bench {
 /// What a promise about trees is about; none depends on the machine.
 enum class TreeValue : uint8_t {
     SahCost,
-    WideCost,  ///< of wide BVHs, see wide_cost; costs of nodes and packs as wide4 and wide8 have them
+    WideCost,  ///< of wide BVHs, see wide_cost; costs of nodes and packs as wide4, wide8 and wide16 have them
     References,
     Nodes,
     Bytes,

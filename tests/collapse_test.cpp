@@ -187,6 +187,7 @@ void expect_least_of_all(uint32_t most_leaves, uint64_t seed) {
 TEST(Collapse, OptimalIsTheLeastOfAllChoices) {
     expect_least_of_all<4>(8, 1);
     expect_least_of_all<8>(10, 2);
+    expect_least_of_all<16>(10, 3);
 }
 
 template <uint32_t Width>
@@ -203,6 +204,7 @@ void expect_at_most_greedy(const std::string& name, const Mesh& mesh) {
         const Structure binary = run(recipe, mesh).structure;
         expect_at_most_greedy<4>(name, mesh, *binary.as<Bvh2>());
         expect_at_most_greedy<8>(name, mesh, *binary.as<Bvh2>());
+        expect_at_most_greedy<16>(name, mesh, *binary.as<Bvh2>());
     }
 }
 

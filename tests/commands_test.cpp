@@ -317,8 +317,8 @@ TEST_F(CommandLine, BenchCollapseSaysWhatLeastCostGainsOverGreedy) {
     const Ended result = run("bench collapse -s cornell -r bvh-spatial-median --builds 1 --json -");
     ASSERT_EQ(result.exit_code, 0) << result.error;
     const Json rows = Json::parse(result.output)["rows"];
-    ASSERT_EQ(rows.size(), 2u);
-    EXPECT_EQ(rows[1]["recipe"], "bvh-spatial-median > wide8");
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[2]["recipe"], "bvh-spatial-median > wide16");
     for (const Json& row : rows) EXPECT_LE(row["optimal_cost"], row["greedy_cost"]);
     expect_refusal("bench collapse -s cornell -r kd-sah", 2, "wide4 needs a binary BVH");
 }

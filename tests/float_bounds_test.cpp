@@ -122,10 +122,10 @@ HWY_NOINLINE void answer_with(std::span<const FloatCase> cases, std::span<FloatA
         answer.is_open = test_pack(pack, ray, one_case.ray.t_max, hits);
         answer.is_sure = answer.is_open && (hits.sure & 1) != 0;
         const PlaneHits<4> plane(pack, 0, ray, Sheared<4>(pack, 0, ray));
-        answer.is_plane_sure = (bits_of(d, plane.is_sure) & 1) != 0;
+        answer.is_plane_sure = (mask_bits(d, plane.is_sure) & 1) != 0;
         answer.lower = hn::GetLane(plane.lower);
         answer.upper = hn::GetLane(plane.upper);
-        const BoxRay<8> box_ray(rays, 0, &node);
+        const BoxRay<8> box_ray(rays, 0, Planes<8>(rays.octant[0]), &node);
         const typename BoxRay<8>::D d8;
         hn::Store(box_ray.entry(0), d8, entries);
         hn::Store(box_ray.exit(0, one_case.ray.t_max), d8, exits);

@@ -17,14 +17,14 @@ std::shared_ptr<const Scene> scene_of_parts() {
 }
 
 /// Each triangle in some leaf, each leaf's triangles inside its box.
-void expect_whole(const Mesh& mesh, const WideBvh<8>& bvh) {
+void expect_whole(const Mesh& mesh, const WideBvh<16>& bvh) {
     std::vector<bool> is_there(mesh.triangle_count(), false);
-    for (const WideBvh<8>::Node& node : bvh.nodes) {
-        for (uint32_t lane = 0; lane < 8; ++lane) {
+    for (const WideBvh<16>::Node& node : bvh.nodes) {
+        for (uint32_t lane = 0; lane < 16; ++lane) {
             const WideChild child = node.children[lane];
             if (!child.is_leaf()) continue;
             for (uint32_t i = 0; i < child.pack_count(); ++i) {
-                const WideBvh<8>::Pack& pack = bvh.packs[child.first_pack() + i];
+                const WideBvh<16>::Pack& pack = bvh.packs[child.first_pack() + i];
                 for (uint32_t k = 0; k < pack.count(); ++k) {
                     ASSERT_TRUE(node.bounds(lane).contains(mesh.triangle(pack.prims[k]).bounds()));
                     is_there[pack.prims[k]] = true;
@@ -66,18 +66,18 @@ TEST(Qualities, PacksOfThePreviewEndWhereCodesPart) {
 }
 
 TEST(Qualities, BestSplitsSpaceWhereBoxesAreLooseAndPiecesNotDearer) {
-    const std::string tight = "boxes are tight: not split in space", whole = "cheaper whole than split";
+    const std::string tight = "tight boxes, not split in space", whole = "cheaper whole than split";
     const std::tuple<const char*, bool, bool> cases[] = {
         {"terrain@tris=10k", true, false}, {"spaceship", false, false}, {"kitchen", false, true}};
     for (const auto& [name, is_tight, is_cheaper_whole] : cases) {
         Task task;
         const auto scene = open_scene(name, task);
         const std::vector<PrimRef> refs = whole_refs(scene->mesh);
-        const WideBvh<8> best = Best{}.build(scene->mesh, refs, task);
+        const WideBvh<16> best = Best{}.build(scene->mesh, refs, task);
         EXPECT_EQ(skipped(task, tight), is_tight ? refs.size() : 0u) << name;
         EXPECT_EQ(skipped(task, whole), is_cheaper_whole ? refs.size() : 0u) << name;
         size_t count = 0;
-        for (const WideBvh<8>::Pack& pack : best.packs) count += pack.count();
+        for (const WideBvh<16>::Pack& pack : best.packs) count += pack.count();
         EXPECT_EQ(count == refs.size(), is_tight || is_cheaper_whole) << name;
     }
 }

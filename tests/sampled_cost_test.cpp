@@ -9,10 +9,10 @@
 namespace boxwood {
 namespace {
 
-WideBvh<8> wide_of(const Mesh& mesh) {
+WideBvh<16> wide_of(const Mesh& mesh) {
     Task task;
     const std::vector<PrimRef> refs = whole_refs(mesh);
-    return Collapse<8>{}.apply(mesh, refs, BinnedSah{}.build(mesh, refs, task), task);
+    return Collapse<16>{}.apply(mesh, refs, BinnedSah{}.build(mesh, refs, task), task);
 }
 
 /// Sixteen walls across the x axis, at x = 0, 1, 2, ...: two packs of eight, so two children of the root.
@@ -36,16 +36,16 @@ Ray along_x(float x, float y) {
 
 TEST(SampledCost, IsThatOfTheBoxesAndTrianglesMet) {
     const Mesh mesh = walls();
-    const WideBvh<8> bvh = wide_of(mesh);
+    const WideBvh<16> bvh = wide_of(mesh);
     ASSERT_EQ(bvh.packs.size(), 2u);
     const Task task;
     const auto cost = [&](std::initializer_list<Ray> rays, const WideCosts& costs) {
         return sampled_cost(bvh, mesh, std::vector<Ray>(rays), costs, task);
     };
     // The root's box and those of its two children; the eight triangles of the nearer leaf.
-    EXPECT_EQ(cost({along_x(-1.0f, 1.0f)}, {1.0, 0.0}), 3.0 / 8.0);
+    EXPECT_EQ(cost({along_x(-1.0f, 1.0f)}, {1.0, 0.0}), 3.0 / 16.0);
     EXPECT_EQ(cost({along_x(-1.0f, 1.0f)}, {0.0, 1.0}), 1.0);
-    EXPECT_EQ(cost({along_x(-1.0f, 1.0f)}, {1.0, 0.5}), 3.0 / 8.0 + 0.5);
+    EXPECT_EQ(cost({along_x(-1.0f, 1.0f)}, {1.0, 0.5}), 3.0 / 16.0 + 0.5);
     // A ray through the boxes beside the triangles tests all; one from behind the last wall none.
     EXPECT_EQ(cost({along_x(-1.0f, 3.5f)}, {0.0, 1.0}), 2.0);
     EXPECT_EQ(cost({along_x(15.5f, 1.0f)}, {0.0, 1.0}), 0.0);
@@ -56,7 +56,7 @@ TEST(SampledCost, IsThatOfTheBoxesAndTrianglesMet) {
 TEST(SampledCost, ViewersStandInTheSceneAndSeeABounceOfWhatTheyHit) {
     Task task;
     const auto scene = open_scene("cornell", task);
-    const WideBvh<8> bvh = wide_of(scene->mesh);
+    const WideBvh<16> bvh = wide_of(scene->mesh);
     constexpr size_t kViewers = 500;
     const std::vector<Ray> rays = viewer_rays(scene->mesh, bvh, kViewers, task);
     std::vector<Hit> hits(kViewers);

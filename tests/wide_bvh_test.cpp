@@ -92,11 +92,12 @@ TEST(WideBvh, LanesWithoutATriangleRepeatTheLastOne) {
 
 template <uint32_t Width>
 void check_order(const typename WideBvh<Width>::Node& node) {
-    for (uint32_t octant = 0; octant < 8; ++octant) {
+    for (uint32_t octant = 0; octant < 4; ++octant) {
         std::set<uint32_t> lanes;
         bool was_empty = false;
         for (uint32_t rank = 0; rank < Width; ++rank) {
             const uint32_t lane = node.lane_at(octant, rank);
+            EXPECT_EQ(node.lane_at(7 - octant, Width - 1 - rank), lane);
             lanes.insert(lane);
             EXPECT_FALSE(was_empty && !node.children[lane].is_empty());
             was_empty = node.children[lane].is_empty();
@@ -105,29 +106,38 @@ void check_order(const typename WideBvh<Width>::Node& node) {
     }
 }
 
-TEST(WideBvh, EveryOctantHasAllLanesTheEmptyOnesLast) {
+TEST(WideBvh, EveryOctantHasAllLanesTheEmptyOnesLastAndTheOppositeOneTheReverse) {
     const Mesh mesh = random_triangles(500, 0.3f, 4);
     const Bvh2 bvh = built_bvh(mesh, "bvh-sweep-sah");
     for (const auto& node : collapse<4>(mesh, bvh).nodes) check_order<4>(node);
     for (const auto& node : collapse<8>(mesh, bvh).nodes) check_order<8>(node);
+    for (const auto& node : collapse<16>(mesh, bvh).nodes) check_order<16>(node);
+}
+
+template <uint32_t Width>
+void expect_row_front_to_back() {
+    const Mesh mesh = row_of_triangles(Width);
+    HandMadeNode root = leaf_of(mesh, 0);
+    for (uint32_t i = 1; i < Width; ++i)  // not in the order of the row
+        root = joined(leaf_of(mesh, i * (Width / 2 - 1) % Width), std::move(root));
+    Collapse<Width> method;
+    method.leaf_size = 1;
+    const WideBvh<Width> wide = collapse<Width>(mesh, hand_made_bvh(root), method);
+    ASSERT_EQ(wide.nodes.size(), 1u);
+    for (uint32_t octant = 0; octant < 8; ++octant) {
+        for (uint32_t rank = 0; rank < Width; ++rank) {
+            const float place = wide.nodes[0].lower[0][wide.nodes[0].lane_at(octant, rank)];
+            EXPECT_EQ(place, static_cast<float>((octant & 1u) != 0 ? Width - 1 - rank : rank));
+        }
+    }
 }
 
 /// In a row along x the order is that of x or its reverse, by the sign along x alone. The row's boxes are
 /// flat in z, and all equal in y.
 TEST(WideBvh, SeparatedChildrenStandFrontToBackInEveryOctant) {
-    const Mesh mesh = row_of_triangles(8);
-    HandMadeNode root = leaf_of(mesh, 3);
-    for (const uint32_t i : {5u, 0u, 7u, 1u, 6u, 2u, 4u}) root = joined(leaf_of(mesh, i), std::move(root));
-    Collapse<8> method;
-    method.leaf_size = 1;
-    const WideBvh<8> wide = collapse<8>(mesh, hand_made_bvh(root), method);
-    ASSERT_EQ(wide.nodes.size(), 1u);
-    for (uint32_t octant = 0; octant < 8; ++octant) {
-        for (uint32_t rank = 0; rank < 8; ++rank) {
-            const float place = wide.nodes[0].lower[0][wide.nodes[0].lane_at(octant, rank)];
-            EXPECT_EQ(place, static_cast<float>((octant & 1u) != 0 ? 7 - rank : rank));
-        }
-    }
+    expect_row_front_to_back<4>();
+    expect_row_front_to_back<8>();
+    expect_row_front_to_back<16>();
 }
 
 /// A ray along +x through the row hits the nearest triangle first: one leaf is tested, but every box of the
@@ -185,6 +195,7 @@ TEST(WideBvh, TracesTheDeepestTree) {
     EXPECT_GT(make_level_table(wide.list_nodes()).level_count(), 20u);
     expect_hits_of_brute_force(wide, mesh);
     expect_hits_of_brute_force(collapse<8>(mesh, bvh), mesh);
+    expect_hits_of_brute_force(collapse<16>(mesh, bvh), mesh);
 }
 
 TEST(WideBvh, LeavesOfMoreThan31PacksBecomeSeveralWithTheSameBox) {
@@ -212,7 +223,7 @@ void expect_same(const WideBvh<Width>& a, const WideBvh<Width>& b) {
             return std::vector(node.children, node.children + Width);
         };
         EXPECT_EQ(children_of(a.nodes[i]), children_of(b.nodes[i]));
-        EXPECT_EQ(a.nodes[i].order, b.nodes[i].order);
+        EXPECT_EQ(a.nodes[i].orders, b.nodes[i].orders);
         EXPECT_EQ(a.nodes[i].first_leaf, b.nodes[i].first_leaf);
     }
     for (size_t i = 0; i < a.packs.size(); ++i)
@@ -224,9 +235,11 @@ TEST(WideBvh, IsTheSameForOneAndManyThreads) {
     const Bvh2 bvh = built_bvh(mesh, "evh(t=10) > bvh-binned-sah");
     const WideBvh<4> four = collapse<4>(mesh, bvh);
     const WideBvh<8> eight = collapse<8>(mesh, bvh);
+    const WideBvh<16> sixteen = collapse<16>(mesh, bvh);
     const ThreadLimit limit(1);
     expect_same(collapse<4>(mesh, bvh), four);
     expect_same(collapse<8>(mesh, bvh), eight);
+    expect_same(collapse<16>(mesh, bvh), sixteen);
 }
 
 }  // namespace

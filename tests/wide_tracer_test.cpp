@@ -81,10 +81,13 @@ TEST_P(WideTracer, FindsThePlainTracersHitsWithEveryInstructionSet) {
     const Bvh2 bvh = BinnedSah{}.build(mesh, whole_refs(mesh), task);
     const WideBvh<4> four = Collapse<4>{}.apply(mesh, {}, bvh, task);
     const WideBvh<8> eight = Collapse<8>{}.apply(mesh, {}, bvh, task);
+    const WideBvh<16> sixteen = Collapse<16>{}.apply(mesh, {}, bvh, task);
     expect_plain_hits<Mode::Exact>(four, mesh, rays);
     expect_plain_hits<Mode::Fast>(four, mesh, rays);
     expect_plain_hits<Mode::Exact>(eight, mesh, rays);
     expect_plain_hits<Mode::Fast>(eight, mesh, rays);
+    expect_plain_hits<Mode::Exact>(sixteen, mesh, rays);
+    expect_plain_hits<Mode::Fast>(sixteen, mesh, rays);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, WideTracer, testing::Values("atrium", "spaceship"));

@@ -89,7 +89,7 @@ ExitCode run_bench_collapse(Arguments arguments) {
     options.integer("--threads", threads, 1, 1024, "threads to build with (default: all)");
     options.footer(
         "optimal_cost, greedy_cost: expected cost of a random ray, node-cost for each inner node and\n"
-        "pack-cost for each pack of four triangles that it meets. What follows is of the optimal one,\n"
+        "pack-cost for each pack of triangles that it meets. What follows is of the optimal one,\n"
         "build_ms the processor time of the collapse alone, a median. Exit code 1 where the greedy one\n"
         "costs less.\n\n" +
         recipe_help());
@@ -110,6 +110,7 @@ ExitCode run_bench_collapse(Arguments arguments) {
             const Built built = build_shown(recipe, scene, cache, /*with_levels=*/false);
             report.rows.push_back(collapse_row<4>(built, builds));
             report.rows.push_back(collapse_row<8>(built, builds));
+            report.rows.push_back(collapse_row<16>(built, builds));
         }
     });
     if (!report.rows.empty()) print_report(report, json);

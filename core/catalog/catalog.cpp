@@ -50,10 +50,11 @@ constexpr CatalogEntry kBuilders[] = {
     row<SpatialSplits>("bvh-spatial-splits", "BVH, spatial splits", "Stich, Friedrich and Dietrich 2009"),
     row<Morton>("bvh-morton", "BVH, Morton order", "Lauterbach et al. 2009, section 3"),
     row<Ploc>("bvh-ploc", "BVH, locally-ordered clustering", "Meister and Bittner 2018, section 3"),
-    row<Preview>("preview", "8-wide BVH, built fastest",
+    row<Preview>("preview", "16-wide BVH, built fastest",
                  "Lauterbach et al. 2009; Wald, Benthin and Boulos 2008"),
-    row<Balanced>("balanced", "8-wide BVH, built fast for speed", "Wald 2007; Ylitie, Karras and Laine 2017"),
-    row<Best>("best", "8-wide BVH, traced fastest",
+    row<Balanced>("balanced", "16-wide BVH, built fast for speed",
+                  "Wald 2007; Ylitie, Karras and Laine 2017"),
+    row<Best>("best", "16-wide BVH, traced fastest",
               "Stich et al. 2009; Meister and Bittner 2018; Ylitie et al. 2017"),
     row<BspSah>("bsp", "BSP, planes of triangles and axes",
                 "Fuchs, Kedem and Naylor 1980; Ize, Wald and Parker 2008; Kerbl, lecture"),
@@ -74,6 +75,8 @@ constexpr CatalogEntry kTransforms[] = {
                      "Dammertz, Hanika and Keller 2008; Ylitie, Karras and Laine 2017, 3.1"),
     row<Collapse<8>>("wide8", "BVH with eight children",
                      "Wald, Benthin and Boulos 2008; Ylitie, Karras and Laine 2017, 3.1"),
+    row<Collapse<16>>("wide16", "BVH with sixteen children",
+                      "Wald, Benthin and Boulos 2008; Ylitie, Karras and Laine 2017, 3.1"),
     row<Refit>("refit", "refit to another frame", "Wald, Boulos and Shirley 2007, ACM TOG 26(1)"),
 };
 

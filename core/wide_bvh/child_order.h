@@ -4,7 +4,7 @@
 
 namespace boxwood {
 
-/// Fills in `order` of a node whose children are known.
+/// Fills in `orders` of a node whose children are known.
 ///
 /// Of two children the nearer one, for the rays of an octant with the signs s, is the one that lies before
 /// the other along more of the axes: a if sum over the axes of s (c_b - c_a) / (h_b + h_a) > 0, c the centres

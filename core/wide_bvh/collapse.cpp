@@ -45,7 +45,7 @@ private:
 };
 
 template <uint32_t Width>
-constexpr uint32_t kMostPrims = WideChild::kMostPacks* Width;  ///< of one leaf
+constexpr uint32_t kMostPrims = WideChild::kMostPacks* WideBvh<Width>::Pack::kSize;  ///< of one leaf
 
 template <uint32_t Width>
 bool has_large_leaf(const Bvh2& bvh) {
@@ -102,7 +102,9 @@ WideBvh<Width> Collapse<Width>::apply(const Mesh& mesh, std::span<const PrimRef>
 
 template struct Collapse<4>;
 template struct Collapse<8>;
+template struct Collapse<16>;
 template double wide_cost(const WideBvh<4>&, const WideCosts&);
 template double wide_cost(const WideBvh<8>&, const WideCosts&);
+template double wide_cost(const WideBvh<16>&, const WideCosts&);
 
 }  // namespace boxwood

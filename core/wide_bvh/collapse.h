@@ -9,8 +9,7 @@ namespace boxwood {
 /// What traversal of a wide hierarchy costs, in any one unit.
 struct WideCosts {
     double node = 1.0;  ///< visiting an inner node: the boxes of all its children
-    double pack = 1.0;  ///< testing a pack of as many triangles as a node has children, however many of them
-                        ///< are repetitions
+    double pack = 1.0;  ///< testing a pack of triangles, however many of them are repetitions
 };
 
 /// Expected cost of a random ray that meets the root (see sah.h): the sum over all nodes of the probability
@@ -37,11 +36,12 @@ struct Collapse {
 
     enum Way { Greedy, Optimal };
     int way = Optimal;
-    int leaf_size = 2 * Width;  ///< triangles of a leaf that is made of several, at most, 1 to 124
-    float node_cost = 1.0f;     ///< see WideCosts, 0 to 16
+    int leaf_size =
+        2 * WideBvh<Width>::Pack::kSize;  ///< triangles of a leaf that is made of several, at most, 1 to 124
+    float node_cost = 1.0f;               ///< see WideCosts, 0 to 16
     /// See WideCosts, 0 to 16. Eight-wide: between 0.3 and 0.5, which both traced faster than 1 on most of
     /// nine scenes; fewer and fuller leaves are also fewer bytes.
-    float pack_cost = Width == 8 ? 0.4f : 1.0f;
+    float pack_cost = Width == 16 ? 0.3f : Width == 8 ? 0.4f : 1.0f;
 
     void describe(ParamVisitor& v) {
         static constexpr const char* kWays[] = {"greedy", "optimal"};
@@ -49,7 +49,7 @@ struct Collapse {
         v.on_int("leaf-size", leaf_size, 1, 124, "triangles of a leaf made of several, at most");
         v.on_float("node-cost", node_cost, 0.0f, 16.0f, "cost of visiting one node with all its children");
         v.on_float("pack-cost", pack_cost, 0.0f, 16.0f,
-                   "cost of testing one pack of triangles, as many as a node has children");
+                   "cost of testing one pack of triangles, four or eight");
     }
     Output apply(const Mesh& mesh, std::span<const PrimRef> refs, const Bvh2& input, Task& task) const;
 };

@@ -8,8 +8,8 @@
 
 namespace boxwood {
 
-/// The packs of eight-wide hierarchies.
-using Pack8 = WideBvh<8>::Pack;
+/// The packs of sixteen-wide hierarchies.
+using Pack8 = WideBvh<16>::Pack;
 
 /// The primitives of a pack: those after the last one repeat it.
 using PackPrims = std::array<uint32_t, Pack8::kSize>;

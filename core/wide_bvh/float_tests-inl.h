@@ -8,11 +8,10 @@
 
 #include <hwy/highway.h>
 
-#include <bit>
-
 #include "core/structure/closest.h"
 #include "core/wide_bvh/float_bounds.h"
 #include "core/wide_bvh/float_rays-inl.h"
+#include "core/wide_bvh/octant-inl.h"
 #include "core/wide_bvh/wide_bvh.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,13 +27,6 @@ template <uint32_t Size>
 using PackTag = hn::CappedTag<float, Size>;
 template <uint32_t Size>
 constexpr uint32_t kPackPart = hn::MaxLanes(PackTag<Size>());
-
-template <class D>
-HWY_INLINE uint32_t bits_of(D d, hn::Mask<D> mask) {
-    uint8_t bytes[8];
-    hn::StoreMaskBits(d, mask, bytes);
-    return bytes[0];
-}
 
 /// One of the prepared rays as the triangle tests take it, over the lanes of a pack.
 template <Mode mode, uint32_t Size, class Bounds = FloatBounds>
@@ -218,10 +210,10 @@ HWY_INLINE uint32_t test_part(const TrianglePack<Size>& pack, uint32_t first,
     // t_min.
     const auto is_outside = hn::Or(hn::Gt(plane.lower, hn::Set(d, limit)), hn::Lt(plane.upper, ray.t_min));
     const auto closed = hn::Or(missed, hn::And(sure, is_outside));
-    hits.sure |= bits_of(d, sure) << first;
+    hits.sure |= mask_bits(d, sure) << first;
     hn::Store(plane.lower, d, hits.lower + first);
     hn::Store(plane.upper, d, hits.upper + first);
-    return ((1u << kPackPart<Size>)-1) & ~bits_of(d, closed);
+    return ((1u << kPackPart<Size>)-1) & ~mask_bits(d, closed);
 }
 
 /// False if no triangle of the pack can be hit in the ray's range, at `limit` or before.
@@ -246,8 +238,14 @@ struct BoxRay {
     const float *far_planes_x, *far_planes_y, *far_planes_z;
 
     template <Mode mode, class Bounds>
-    HWY_INLINE BoxRay(const FloatRays<mode, Bounds>& rays, size_t i,
-                      const typename WideBvh<Width>::Node* nodes) {
+    HWY_INLINE BoxRay(const FloatRays<mode, Bounds>& rays, size_t i, const Planes<Width>& planes,
+                      const typename WideBvh<Width>::Node* nodes)
+        : near_planes_x(nodes->lower[0] + planes.near[0]),
+          near_planes_y(nodes->lower[0] + planes.near[1]),
+          near_planes_z(nodes->lower[0] + planes.near[2]),
+          far_planes_x(nodes->lower[0] + planes.far[0]),
+          far_planes_y(nodes->lower[0] + planes.far[1]),
+          far_planes_z(nodes->lower[0] + planes.far[2]) {
         const D d;
         near_inverse_x = hn::Set(d, rays.near_inverse[0][i]);
         far_inverse_x = hn::Set(d, rays.far_inverse[0][i]);
@@ -262,16 +260,6 @@ struct BoxRay {
         far_y = hn::Set(d, rays.far_offset[1][i]);
         far_z = hn::Set(d, rays.far_offset[2][i]);
         t_min = hn::Set(d, rays.t_min[i]);
-        constexpr size_t kUpper = size_t{3} * Width;
-        const float* const planes = nodes->lower[0];
-        const size_t octant = rays.octant[i];
-        const size_t x = (octant & 1) * kUpper, y = (octant >> 1 & 1) * kUpper, z = (octant >> 2) * kUpper;
-        near_planes_x = planes + x;
-        near_planes_y = planes + y + Width;
-        near_planes_z = planes + z + size_t{2} * Width;
-        far_planes_x = planes + (kUpper - x);
-        far_planes_y = planes + (kUpper - y) + Width;
-        far_planes_z = planes + (kUpper - z) + size_t{2} * Width;
     }
     /// `at`: of a node's first lane to be tested, in floats from the first node's first lane.
     HWY_INLINE V entry(size_t at) const {

@@ -80,5 +80,6 @@ void LeastCostPlan<Width>::add_children(uint32_t node, uint32_t most, WideParts<
 
 template class LeastCostPlan<4>;
 template class LeastCostPlan<8>;
+template class LeastCostPlan<16>;
 
 }  // namespace boxwood

@@ -10,7 +10,7 @@ namespace boxwood {
 /// What showing a subtree as children of a wide node costs at least: see LeastCostPlan.
 template <uint32_t Width>
 struct LeastCosts {
-    std::array<double, Width> least;  ///< C(n, i) at [i - 1]
+    std::array<double, Width> least;  ///< C(n, i) at [i - 1] for i up to `most`; what comes after is not set
     uint32_t most;                    ///< more children than so many cost no less
 };
 
@@ -22,8 +22,9 @@ using LeastCostChoice = std::array<uint8_t, Width>;
 /// Of a subtree that is a leaf.
 template <uint32_t Width>
 LeastCosts<Width> leaf_costs(double as_leaf) {
-    LeastCosts<Width> costs{{}, 1};
-    costs.least.fill(as_leaf);
+    LeastCosts<Width> costs;
+    costs.least[0] = as_leaf;
+    costs.most = 1;
     return costs;
 }
 
@@ -38,14 +39,16 @@ LeastCosts<Width> least_costs(const LeastCosts<Width>& left, const LeastCosts<Wi
     choice.fill(0);
     const uint32_t useful = std::min(left.most + right.most, Width);
     for (uint32_t j = 2; j <= useful; ++j) {
-        best[j - 1] = std::numeric_limits<double>::infinity();
         const uint32_t first = j > right.most ? j - right.most : 1, last = std::min(left.most, j - 1);
+        double least = std::numeric_limits<double>::infinity();
+        uint32_t at = 0;
         for (uint32_t k = first; k <= last; ++k) {
             const double cost = left.least[k - 1] + right.least[j - k - 1];
-            if (!(cost < best[j - 1])) continue;
-            best[j - 1] = cost;
-            choice[j - 1] = static_cast<uint8_t>(k);
+            at = cost < least ? k : at;
+            least = cost < least ? cost : least;
         }
+        best[j - 1] = least;
+        choice[j - 1] = static_cast<uint8_t>(at);
     }
     const double as_node = visit + best[useful - 1];
     const bool is_leaf = as_leaf <= as_node;
@@ -61,7 +64,6 @@ LeastCosts<Width> least_costs(const LeastCosts<Width>& left, const LeastCosts<Wi
             choice[i - 1] = 0;
         }
     }
-    std::fill(best.begin() + costs.most, best.end(), best[costs.most - 1]);
     return costs;
 }
 

@@ -10,10 +10,10 @@
 #include <hwy/highway.h>
 
 #include <bit>
-#include <cstring>
 #include <span>
 
 #include "core/base/ray.h"
+#include "core/wide_bvh/octant-inl.h"
 #include "core/wide_bvh/packet_bounds.h"
 #include "core/wide_bvh/wide_bvh.h"
 
@@ -31,20 +31,8 @@ using PacketTag = hn::CappedTag<float, kPacketSize>;
 using PacketVector = hn::Vec<PacketTag>;
 constexpr uint32_t kLanes = hn::MaxLanes(PacketTag()), kVectors = kPacketSize / kLanes;
 
-/// Bit i: lane i, of up to 16.
-template <class D>
-HWY_INLINE uint32_t mask_bits(D d, hn::Mask<D> mask) {
-    uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, mask, bytes);
-    uint16_t bits;
-    std::memcpy(&bits, bytes, sizeof bits);
-    return bits;
-}
 HWY_INLINE uint32_t packet_bits(hn::Mask<PacketTag> mask) { return mask_bits(PacketTag(), mask); }
-HWY_INLINE hn::Mask<PacketTag> packet_mask(uint32_t bits) {
-    const uint8_t bytes[8] = {static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8)};
-    return hn::LoadMaskBits(PacketTag(), bytes);
-}
+HWY_INLINE hn::Mask<PacketTag> packet_mask(uint32_t bits) { return mask_of(PacketTag(), bits); }
 
 /// One number for each ray of a packet.
 struct PacketFloats {
@@ -61,23 +49,6 @@ struct PacketFloats {
         PacketVector all = vectors[0];
         for (uint32_t i = 1; i < kVectors; ++i) all = hn::Max(all, vectors[i]);
         return hn::GetLane(hn::MaxOfLanes(PacketTag(), all));
-    }
-};
-
-/// Places of the near and far planes of rays of an octant in a node, by axis, in floats.
-template <uint32_t Width>
-struct Planes {
-    uint32_t near[3], far[3];
-
-    HWY_INLINE explicit Planes(uint32_t octant) {
-        set_axis(octant, 0);
-        set_axis(octant, 1);
-        set_axis(octant, 2);
-    }
-    HWY_INLINE void set_axis(uint32_t octant, uint32_t axis) {
-        const bool is_negative = (octant >> axis & 1) != 0;
-        near[axis] = (is_negative ? 3 + axis : axis) * Width;
-        far[axis] = (is_negative ? axis : 3 + axis) * Width;
     }
 };
 

@@ -142,8 +142,8 @@ struct PackVectors {
     V x, y, z;
 
     HWY_INLINE PackVectors(V in_x, V in_y, V in_z) : x(in_x), y(in_y), z(in_z) {}
-    template <class Bounds>
-    HWY_INLINE PackVectors(const float corners[3][Size], uint32_t first, const Frustum<Size, Bounds>& rays)
+    template <uint32_t Width, class Bounds>
+    HWY_INLINE PackVectors(const float corners[3][Size], uint32_t first, const Frustum<Width, Bounds>& rays)
         : x(hn::Load(D(), corners[rays.x] + first)),
           y(hn::Load(D(), corners[rays.y] + first)),
           z(hn::Load(D(), corners[rays.z] + first)) {}
@@ -169,8 +169,8 @@ struct PackEdges {
     HWY_ALIGN float bounds[kPart];       ///< of the edge functions of a triangle
     Vectors a, ab, bc;                   ///< corner a from the origin, edges
 
-    template <class Bounds>
-    HWY_INLINE PackEdges(const TrianglePack<Size>& pack, uint32_t first, const Frustum<Size, Bounds>& rays)
+    template <uint32_t Width, class Bounds>
+    HWY_INLINE PackEdges(const TrianglePack<Size>& pack, uint32_t first, const Frustum<Width, Bounds>& rays)
         : PackEdges({pack.corners[0], first, rays}, {pack.corners[1], first, rays},
                     {pack.corners[2], first, rays},
                     {hn::Set(D(), rays.origin[rays.x]), hn::Set(D(), rays.origin[rays.y]),
@@ -178,9 +178,9 @@ struct PackEdges {
                     rays) {}
 
 private:
-    template <class Bounds>
+    template <uint32_t Width, class Bounds>
     HWY_INLINE PackEdges(const Vectors& at_a, const Vectors& at_b, const Vectors& at_c, const Vectors& origin,
-                         const Frustum<Size, Bounds>& rays)
+                         const Frustum<Width, Bounds>& rays)
         : a(at_a.minus(origin)), ab(at_b.minus(at_a)), bc(at_c.minus(at_b)) {
         const D d;
         const Vectors b = at_b.minus(origin), c = at_c.minus(origin), ca = at_a.minus(at_c);
@@ -235,8 +235,8 @@ struct PackPlanes {
     HWY_ALIGN float normals[3][kPart];  ///< by axis x, y, z of the rays
     HWY_ALIGN float numerators[kPart], numerator_errors[kPart], denominator_errors[kPart];
 
-    template <class Bounds>
-    HWY_INLINE PackPlanes(const PackEdges<Size>& of, const Frustum<Size, Bounds>& rays) {
+    template <uint32_t Width, class Bounds>
+    HWY_INLINE PackPlanes(const PackEdges<Size>& of, const Frustum<Width, Bounds>& rays) {
         const D d;
         const V nx1 = hn::Mul(of.ab.y, of.bc.z), nx2 = hn::Mul(of.ab.z, of.bc.y),
                 ny1 = hn::Mul(of.ab.z, of.bc.x), ny2 = hn::Mul(of.ab.x, of.bc.z),

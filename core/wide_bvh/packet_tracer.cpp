@@ -31,10 +31,10 @@ void trace_packets(const WideBvh<Width>& bvh, const Mesh& mesh, std::span<const 
 /// ClosestHit from the first time they do not.
 using ClosestHits = std::optional<ClosestHit<Mode::Exact> >;
 
-template <uint32_t Width>
+template <uint32_t Size>
 struct PacketSearch {
-    using Pack = TrianglePack<Width>;
-    static constexpr uint32_t kPart = PackEdges<Width>::kPart;
+    using Pack = TrianglePack<Size>;
+    static constexpr uint32_t kPart = PackEdges<Size>::kPart;
 
     const Ray* rays;
     const Pack* packs;
@@ -60,8 +60,9 @@ struct PacketSearch {
 
     /// The first `count` triangles of the part of the pack that begins at lane `first`, one at least.
     /// Whether any ray may have a hit there.
+    template <uint32_t Width>
     HWY_INLINE bool test(const PacketRays& ray, const Frustum<Width>& frustum, const Pack& pack,
-                         const PackEdges<Width>& edges, uint32_t first, uint32_t count) {
+                         const PackEdges<Size>& edges, uint32_t first, uint32_t count) {
         const PacketTag d;
         uint32_t open[kPart], hit[kPart], any = 0;
         for (uint32_t lane = 0; lane < count; ++lane) {
@@ -78,18 +79,18 @@ struct PacketSearch {
             }
         }
         if (any == 0) return false;
-        const PackPlanes<Width> planes(edges, frustum);
+        const PackPlanes<Size> planes(edges, frustum);
         for (uint32_t lane = 0; lane < count; ++lane)
             if (open[lane] != 0) keep(ray, pack, planes, first, lane, open[lane], hit[lane]);
         limit = limits.largest();
         return true;
     }
-    HWY_INLINE void keep(const PacketRays& ray, const Pack& pack, const PackPlanes<Width>& planes,
+    HWY_INLINE void keep(const PacketRays& ray, const Pack& pack, const PackPlanes<Size>& planes,
                          uint32_t first, uint32_t lane, uint32_t open, uint32_t hit) {
         const PacketTag d;
         const hn::RebindToUnsigned<PacketTag> du;
         const uint32_t prim = pack.prims[first + lane];
-        const uint32_t triangle = static_cast<uint32_t>(&pack - packs) * Width + first + lane;
+        const uint32_t triangle = static_cast<uint32_t>(&pack - packs) * Size + first + lane;
         for (uint32_t i = 0; i < kVectors; ++i) {
             const uint32_t all = (1u << kLanes) - 1;
             const uint32_t open_here = open >> (kLanes * i) & all, hit_here = hit >> (kLanes * i) & all;
@@ -118,7 +119,7 @@ struct PacketSearch {
                 decide(kLanes * i + static_cast<uint32_t>(std::countr_zero(unknown)), pack, first + lane);
         }
     }
-    Triangle triangle(uint32_t i) const { return packs[triangles[i] / Width].triangle(triangles[i] % Width); }
+    Triangle triangle(uint32_t i) const { return packs[triangles[i] / Size].triangle(triangles[i] % Size); }
     HWY_NOINLINE void decide(uint32_t i, const Pack& pack, uint32_t lane) {
         NoCount count;
         ClosestHits& closest = decided[i];
@@ -180,10 +181,10 @@ struct PacketSearch {
     HWY_INLINE uint32_t round_t(const PacketRays& prepared, float* t) const {
         PacketTriangles best;
         if (are_same()) {
-            best.set_all(packs[triangles[0] / Width], triangles[0] % Width);
+            best.set_all(packs[triangles[0] / Size], triangles[0] % Size);
         } else {
             for (uint32_t i = 0; i < kPacketSize; ++i)
-                best.set(i, packs[triangles[i] / Width], triangles[i] % Width);
+                best.set(i, packs[triangles[i] / Size], triangles[i] % Size);
         }
         return best.round_t(prepared, t);
     }
@@ -228,52 +229,35 @@ struct PacketStack {
 /// octant, whose lane is returned; Width if there is none.
 template <uint32_t Width>
 HWY_INLINE uint32_t push_met(const typename WideBvh<Width>::Node& node, uint32_t index,
-                             const Frustum<Width>& frustum, uint32_t octant, float limit,
+                             const Frustum<Width>& frustum, const ChildLanes<Width>& lanes, float limit,
                              PacketStack<Width>& stack, uint32_t& count) {
-    const hn::CappedTag<float, Width> d;
+    using Lanes = ChildLanes<Width>;
+    const typename Lanes::D d;
+    const typename Lanes::DU du;
     const float* const planes = node.lower[0];
-    if constexpr (hn::MaxLanes(d) == Width) {
-        const hn::RebindToUnsigned<decltype(d)> du;
-        const auto entry = frustum.entry(planes);
-        const auto is_met = hn::Le(entry, frustum.exit(planes, limit));
-        const uint32_t met = mask_bits(d, is_met);
-        if ((met & (met - 1)) == 0) return met == 0 ? Width : static_cast<uint32_t>(std::countr_zero(met));
-        // The lanes back to front.
-        constexpr uint32_t kBits = Width == 4 ? 2 : 3;
-        uint32_t order;
-        std::memcpy(&order, &node.order[octant * kBits * Width / 8], sizeof(order));
-        HWY_ALIGN static constexpr uint32_t kShifts[8] = {7 * kBits, 6 * kBits, 5 * kBits, 4 * kBits,
-                                                          3 * kBits, 2 * kBits, kBits,     0};
-        const auto lanes =
-            hn::And(hn::Shr(hn::Set(du, order), hn::LoadU(du, kShifts + 8 - Width)), hn::Set(du, Width - 1));
-        const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
-        const auto entries =
-            hn::TableLookupLanes(hn::IfThenElse(is_met, entry, infinity), hn::IndicesFromVec(d, lanes));
-        const auto is_pushed = hn::Lt(entries, infinity);
-        const uint32_t ranks = mask_bits(d, is_pushed);
-        const auto children = hn::BitCast(d, hn::Or(lanes, hn::Set(du, index * Width)));
-        hn::StoreU(hn::Compress(entries, is_pushed), d, stack.entries + count);
-        hn::StoreU(hn::BitCast(du, hn::Compress(children, is_pushed)), du, stack.children + count);
-        count += static_cast<uint32_t>(std::popcount(ranks)) - 1;
-        // The nearest does not wait for the stack's memory.
-        return order >> (kBits * (Width - static_cast<uint32_t>(std::bit_width(ranks)))) & (Width - 1);
+    typename Lanes::V entry[Lanes::kParts], exit[Lanes::kParts];
+    uint32_t met = 0;
+    for (size_t part = 0; part < Lanes::kParts; ++part) {
+        const size_t first = part * hn::MaxLanes(d);
+        entry[part] = frustum.entry(planes + first);
+        exit[part] = frustum.exit(planes + first, limit);
+        met |= mask_bits(d, hn::Le(entry[part], exit[part])) << first;
+    }
+    if ((met & (met - 1)) == 0) return met == 0 ? Width : static_cast<uint32_t>(std::countr_zero(met));
+    if constexpr (Lanes::kHasPush) {
+        typename Lanes::VU children[Lanes::kParts];
+        for (uint32_t part = 0; part < Lanes::kParts; ++part)
+            children[part] = hn::Iota(du, index * Width + part * hn::MaxLanes(d));
+        return lanes.push_met(node, entry, exit, children, stack.entries, stack.children, count);
     } else {
         HWY_ALIGN float entries[Width];
-        uint32_t met = 0;
-        for (size_t first = 0; first < Width; first += hn::Lanes(d)) {
-            const auto entry = frustum.entry(planes + first);
-            hn::Store(entry, d, entries + first);
-            met |= mask_bits(d, hn::Le(entry, frustum.exit(planes + first, limit))) << first;
-        }
-        for (uint32_t rank = Width; met != 0; --rank) {
-            const uint32_t lane = node.lane_at(octant, rank - 1);
-            if ((met >> lane & 1) == 0) continue;
-            met &= ~(1u << lane);
-            if (met == 0) return lane;
+        for (size_t part = 0; part < Lanes::kParts; ++part)
+            hn::Store(entry[part], d, entries + part * hn::MaxLanes(d));
+        lanes.for_each_back_to_front(node, met, [&](uint32_t lane) {
             stack.children[count] = index * Width + lane;
             stack.entries[count++] = entries[lane];
-        }
-        return Width;
+        });
+        return stack.children[--count] % Width;
     }
 }
 
@@ -282,7 +266,7 @@ HWY_INLINE uint32_t push_met(const typename WideBvh<Width>::Node& node, uint32_t
 template <uint32_t Width>
 class PacketGroup {
 public:
-    using Pack = TrianglePack<Width>;
+    using Pack = typename WideBvh<Width>::Pack;
 
     PacketGroup(const WideBvh<Width>& bvh, const Mesh& mesh)
         : bvh_(bvh), mesh_(mesh), scene_(bvh.nodes[0].bounds()) {}
@@ -302,7 +286,7 @@ public:
             rays_[0] = copy;
         }
         new (&searches_[count_])
-            PacketSearch<Width>(rays, rays_[count_], bvh_.packs.data(), decided_[count_]);
+            PacketSearch<Pack::kSize>(rays, rays_[count_], bvh_.packs.data(), decided_[count_]);
         hits_[count_++] = hits;
         return members;
     }
@@ -322,11 +306,11 @@ private:
 
     HWY_INLINE void search(const Frustum<Width>& frustum) {
         const auto* const nodes = bvh_.nodes.data();
-        const uint32_t octant = rays_[0].octant;
+        const ChildLanes<Width> lanes(rays_[0].octant);
         PacketStack<Width> stack;
         uint32_t count = 0, index = 0;
         while (true) {
-            uint32_t lane = push_met<Width>(nodes[index], index, frustum, octant, limit_, stack, count);
+            uint32_t lane = push_met<Width>(nodes[index], index, frustum, lanes, limit_, stack, count);
             while (true) {
                 if (lane != Width) {
                     const auto& node = nodes[index];
@@ -358,12 +342,12 @@ private:
         return met;
     }
     HWY_INLINE void test(const Frustum<Width>& frustum, std::span<const Pack> leaf, uint32_t met) {
-        constexpr uint32_t kPart = PackEdges<Width>::kPart;
+        constexpr uint32_t kPart = PackEdges<Pack::kSize>::kPart;
         bool is_any_nearer = false;
         for (const Pack& pack : leaf) {
             const uint32_t count = count_of(pack);
             for (uint32_t first = 0; first < count; first += kPart) {
-                const PackEdges<Width> edges(pack, first, frustum);
+                const PackEdges<Pack::kSize> edges(pack, first, frustum);
                 for (uint32_t packets = met; packets != 0; packets &= packets - 1) {
                     const int i = std::countr_zero(packets);
                     is_any_nearer |= searches_[i].test(rays_[i], frustum, pack, edges, first,
@@ -375,11 +359,11 @@ private:
     }
     /// Lanes before the first of those that repeat the last one, and one of these.
     static HWY_INLINE uint32_t count_of(const Pack& pack) {
-        const hn::CappedTag<uint32_t, Width> du;
-        if constexpr (hn::MaxLanes(du) < Width) {
+        const hn::CappedTag<uint32_t, Pack::kSize> du;
+        if constexpr (hn::MaxLanes(du) < Pack::kSize) {
             return pack.count();
         } else {
-            const auto is_last = hn::Eq(hn::LoadU(du, pack.prims), hn::Set(du, pack.prims[Width - 1]));
+            const auto is_last = hn::Eq(hn::LoadU(du, pack.prims), hn::Set(du, pack.prims[Pack::kSize - 1]));
             return static_cast<uint32_t>(std::countr_zero(mask_bits(du, is_last))) + 1;
         }
     }
@@ -394,7 +378,7 @@ private:
     uint32_t count_ = 0;
     float limit_ = 0.0f;  ///< the largest of all packets
     PacketRays rays_[kMost];
-    PacketSearch<Width> searches_[kMost];
+    PacketSearch<Pack::kSize> searches_[kMost];
     Hit* hits_[kMost];
     ClosestHits decided_[kMost][kPacketSize];
 };
@@ -440,6 +424,10 @@ void trace_packets8(const WideBvh<8>& bvh, const Mesh& mesh, std::span<const Ray
                     const Task& task) {
     trace_packets(bvh, mesh, rays, hits, task);
 }
+void trace_packets16(const WideBvh<16>& bvh, const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                     const Task& task) {
+    trace_packets(bvh, mesh, rays, hits, task);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace boxwood
@@ -450,6 +438,7 @@ namespace boxwood {
 
 HWY_EXPORT(trace_packets4);
 HWY_EXPORT(trace_packets8);
+HWY_EXPORT(trace_packets16);
 
 template <>
 void WideBvh<4>::closest_hits_coherent(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
@@ -462,6 +451,12 @@ void WideBvh<8>::closest_hits_coherent(const Mesh& mesh, std::span<const Ray> ra
                                        Mode mode, const Task& task) const {
     if (mode == Mode::Fast) return closest_hits(mesh, rays, hits, mode, task);
     HWY_DYNAMIC_DISPATCH(trace_packets8)(*this, mesh, rays, hits, task);
+}
+template <>
+void WideBvh<16>::closest_hits_coherent(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                                        Mode mode, const Task& task) const {
+    if (mode == Mode::Fast) return closest_hits(mesh, rays, hits, mode, task);
+    HWY_DYNAMIC_DISPATCH(trace_packets16)(*this, mesh, rays, hits, task);
 }
 
 }  // namespace boxwood

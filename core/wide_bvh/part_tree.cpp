@@ -9,12 +9,12 @@ PartTree::PartTree(const PartCosts& costs, uint32_t most_leaves)
 
 PartTree::Costs PartTree::set_leaf(uint32_t node, const Box4& box, uint32_t pack) {
     store_node(nodes_[node], box, pack, 1);
-    return {leaf_costs<8>(half_area(box) * costs_.pack), 1};
+    return {leaf_costs<16>(half_area(box) * costs_.pack), 1};
 }
 
 PartTree::Costs PartTree::set_part(uint32_t node, const Box4& box, uint32_t part, double cost) {
     store_node(nodes_[node], box, part, 1);
-    return {leaf_costs<8>(cost), kMany};
+    return {leaf_costs<16>(cost), kMany};
 }
 
 PartTree::Costs PartTree::set_inner(uint32_t node, const Box4& box, uint32_t left, const Costs& left_costs,
@@ -25,17 +25,17 @@ PartTree::Costs PartTree::set_inner(uint32_t node, const Box4& box, uint32_t lef
     const double as_leaf =
         count <= costs_.most_packs ? area * count * costs_.pack : std::numeric_limits<double>::infinity();
     return {
-        least_costs<8>(left_costs.costs, right_costs.costs, area * costs_.node, as_leaf, choices_[left / 2]),
+        least_costs<16>(left_costs.costs, right_costs.costs, area * costs_.node, as_leaf, choices_[left / 2]),
         count};
 }
 
-WideParts<8> PartTree::children_of(uint32_t node) const {
-    WideParts<8> parts;
-    add_parts(node, 8, parts);
+WideParts<16> PartTree::children_of(uint32_t node) const {
+    WideParts<16> parts;
+    add_parts(node, 16, parts);
     return parts;
 }
 
-void PartTree::add_parts(uint32_t node, uint32_t most, WideParts<8>& parts) const {
+void PartTree::add_parts(uint32_t node, uint32_t most, WideParts<16>& parts) const {
     if (nodes_[node].is_leaf()) return parts.add({node, /*is_leaf=*/true});
     const Choice& choice = choice_of(node);
     while (most > 1 && choice[most - 1] == 0) --most;

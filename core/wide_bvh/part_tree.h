@@ -6,19 +6,20 @@
 
 namespace boxwood {
 
-/// What an eight-wide hierarchy costs (see WideCosts), and how large a leaf may be that is made of several.
+/// What a sixteen-wide hierarchy costs (see WideCosts), and how large a leaf may be that is made of several.
 struct PartCosts {
     double node, pack;
     uint32_t most_packs;
 };
 
-/// A binary tree under construction whose least-cost collapse to eight children is found as it grows, bottom
-/// up. A leaf is one pack. The costs are those of LeastCostPlan, but for the factor of the root's area.
+/// A binary tree under construction whose least-cost collapse to sixteen children is found as it grows,
+/// bottom up. A leaf is one pack. The costs are those of LeastCostPlan, but for the factor of the root's
+/// area.
 class PartTree {
 public:
     /// Of a subtree.
     struct Costs {
-        LeastCosts<8> costs;
+        LeastCosts<16> costs;
         uint32_t pack_count;
     };
 
@@ -40,15 +41,15 @@ public:
     /// Whether all below the node is best one leaf.
     bool is_leaf(uint32_t node) const { return nodes_[node].is_leaf() || choice_of(node)[0] != 0; }
     /// See WidePlan; in the order of their packs.
-    WideParts<8> children_of(uint32_t node) const;
+    WideParts<16> children_of(uint32_t node) const;
     /// Of a node that is one leaf.
     WideChild leaf(uint32_t node) const;
 
 private:
-    using Choice = LeastCostChoice<8>;
+    using Choice = LeastCostChoice<16>;
     static constexpr uint32_t kMany = 1u << 30;  ///< packs of a part, as if there were so many
 
-    void add_parts(uint32_t node, uint32_t most, WideParts<8>& parts) const;
+    void add_parts(uint32_t node, uint32_t most, WideParts<16>& parts) const;
     const Choice& choice_of(uint32_t inner) const { return choices_[nodes_[inner].first / 2]; }
 
     PartCosts costs_;

@@ -29,14 +29,15 @@ constexpr size_t kViewers = 2048;  ///< whose rays tell `best` whether pieces or
 constexpr double kClearlyLess = 0.95;
 constexpr size_t kPartsAtOnce = 8;  ///< that a thread takes with the same memory
 
+template <uint32_t Width>
 WideCosts collapse_costs() {
-    const Collapse<8> collapse;
+    const Collapse<Width> collapse;
     return {static_cast<double>(collapse.node_cost), static_cast<double>(collapse.pack_cost)};
 }
 
 PartCosts part_costs() {
-    const WideCosts costs = collapse_costs();
-    return {costs.node, costs.pack, static_cast<uint32_t>(Collapse<8>{}.leaf_size) / Pack8::kSize};
+    const WideCosts costs = collapse_costs<16>();
+    return {costs.node, costs.pack, static_cast<uint32_t>(Collapse<16>{}.leaf_size) / Pack8::kSize};
 }
 
 /// Whether each reference is a triangle, and each triangle of the mesh a reference, in the same order: where
@@ -76,7 +77,7 @@ void for_parts(size_t count, const Task& task, const MakeWorker& make_worker) {
     });
 }
 
-WideBvh<8> build_preview(const Mesh& mesh, std::span<const PrimRef> refs, const Task& task) {
+WideBvh<16> build_preview(const Mesh& mesh, std::span<const PrimRef> refs, const Task& task) {
     const MortonOrder order = morton_order(refs, Pack8::kSize, task);
     if (task.stopped()) return {};
     const std::vector<TopNode> top = divide_morton(order, kMortonPartSize), parts = parts_of(top);
@@ -114,7 +115,7 @@ WideBvh<8> build_preview(const Mesh& mesh, std::span<const PrimRef> refs, const 
     return std::move(joined.bvh);
 }
 
-WideBvh<8> build_balanced(const Mesh& mesh, std::span<const PrimRef> refs, const Task& task) {
+WideBvh<16> build_balanced(const Mesh& mesh, std::span<const PrimRef> refs, const Task& task) {
     const MortonOrder order = morton_order(refs, Pack8::kSize, task);
     if (task.stopped()) return {};
     const std::vector<TopNode> parts = parts_of(divide_morton(order, kBinnedPartSize));
@@ -176,35 +177,35 @@ double loose_boxes(const Mesh& mesh, std::span<const PrimRef> refs, const Task& 
 
 }  // namespace
 
-WideBvh<8> Preview::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const {
+WideBvh<16> Preview::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const {
     if (refs.empty()) return {};
     if (are_whole(mesh, refs)) return build_preview(mesh, refs, task);
-    return Collapse<8>{}.apply(mesh, refs, Morton{}.build(mesh, refs, task), task);
+    return Collapse<16>{}.apply(mesh, refs, Morton{}.build(mesh, refs, task), task);
 }
 
-WideBvh<8> Balanced::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const {
+WideBvh<16> Balanced::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const {
     if (refs.empty()) return {};
     if (are_whole(mesh, refs)) return build_balanced(mesh, refs, task);
-    return Collapse<8>{}.apply(mesh, refs, BinnedSah{}.build(mesh, refs, task), task);
+    return Collapse<16>{}.apply(mesh, refs, BinnedSah{}.build(mesh, refs, task), task);
 }
 
-WideBvh<8> Best::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const {
+WideBvh<16> Best::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const {
     const auto finish = [&](const Bvh2& bvh) {
         const Bvh2 optimized = task.stopped() ? Bvh2{} : Optimize{}.apply(mesh, refs, bvh, task);
-        return task.stopped() ? WideBvh<8>{} : Collapse<8>{}.apply(mesh, refs, optimized, task);
+        return task.stopped() ? WideBvh<16>{} : Collapse<16>{}.apply(mesh, refs, optimized, task);
     };
-    WideBvh<8> whole = finish(BinnedSah{}.build(mesh, refs, task));
+    WideBvh<16> whole = finish(BinnedSah{}.build(mesh, refs, task));
     if (refs.empty() || task.stopped()) return whole;
     if (loose_boxes(mesh, refs, task) < kLooseBoxes) {
-        task.skipped.add("boxes are tight: not split in space", refs.size());
+        task.skipped.add("tight boxes, not split in space", refs.size());
         return whole;
     }
     SpatialSplits splits;
     splits.budget = budget;
-    WideBvh<8> cut = finish(splits.build(mesh, refs, task));
+    WideBvh<16> cut = finish(splits.build(mesh, refs, task));
     const std::vector<Ray> rays = viewer_rays(mesh, whole, kViewers, task);
-    const auto cost_of = [&](const WideBvh<8>& bvh) {
-        return sampled_cost(bvh, mesh, rays, collapse_costs(), task);
+    const auto cost_of = [&](const WideBvh<16>& bvh) {
+        return sampled_cost(bvh, mesh, rays, collapse_costs<16>(), task);
     };
     if (kClearlyLess * cost_of(cut) < cost_of(whole)) return cut;
     task.skipped.add("cheaper whole than split", refs.size());

@@ -5,13 +5,13 @@
 
 namespace boxwood {
 
-/// The eight-wide hierarchy that is built fastest: the hierarchy of the Morton codes (see Morton) over packs
-/// of neighbours on the curve, part by part, nodes of least expected cost (see Collapse) within the parts and
-/// above them; a part is at least one node. Packs stand depth first. Over pieces of triangles the two stages
-/// are run as they are.
+/// The sixteen-wide hierarchy that is built fastest: the hierarchy of the Morton codes (see Morton) over
+/// packs of neighbours on the curve, part by part, nodes of least expected cost (see Collapse) within the
+/// parts and above them; a part is at least one node. Packs stand depth first. Over pieces of triangles the
+/// two stages are run as they are.
 struct Preview {
     void describe(ParamVisitor&) {}
-    WideBvh<8> build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const;
+    WideBvh<16> build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const;
 };
 
 /// Traced fast, built in a moment: binned surface area cost (see BinnedSah) within parts that are neighbours
@@ -21,14 +21,14 @@ struct Preview {
 /// depth first. Over pieces of triangles the two stages are run as they are.
 struct Balanced {
     void describe(ParamVisitor&) {}
-    WideBvh<8> build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const;
+    WideBvh<16> build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const;
 };
 
-/// The eight-wide hierarchy that is traced fastest: splits between centres in bins, subtrees moved to where
-/// they cost less, nodes of least expected cost. See BinnedSah, Optimize and Collapse. Where cuts can take
-/// much from the boxes of triangles, the same out of spatial splits (see SpatialSplits), unless whole
-/// triangles have clearly the lower sampled_cost. Counted in task.skipped: references that were not split in
-/// space since their "boxes are tight", or as they were "cheaper whole".
+/// The sixteen-wide hierarchy that is traced fastest: splits between centres in bins, subtrees
+/// moved to where they cost less, nodes of least expected cost. See BinnedSah, Optimize and Collapse. Where
+/// cuts can take much from the boxes of triangles, the same out of spatial splits (see SpatialSplits), unless
+/// whole triangles have clearly the lower sampled_cost. Counted in task.skipped: references that were not
+/// split in space: "tight boxes", or "cheaper whole".
 struct Best {
     static constexpr const char* kStandIn = "preview";
 
@@ -37,7 +37,7 @@ struct Best {
     void describe(ParamVisitor& v) {
         v.on_float("budget", budget, 1.0f, 16.0f, "references in leaves at most, for each one given");
     }
-    WideBvh<8> build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const;
+    WideBvh<16> build(const Mesh& mesh, std::span<const PrimRef> refs, Task& task) const;
 };
 
 }  // namespace boxwood

@@ -34,7 +34,7 @@ Ray any_ray(const Box& box, Rng& rng) {
 
 }  // namespace
 
-std::vector<Ray> viewer_rays(const Mesh& mesh, const WideBvh<8>& bvh, size_t viewers, const Task& task) {
+std::vector<Ray> viewer_rays(const Mesh& mesh, const WideBvh<16>& bvh, size_t viewers, const Task& task) {
     const Box box = mesh.bounds();
     Rng rng(kSeed);
     std::vector<Ray> rays(viewers);
@@ -53,7 +53,7 @@ std::vector<Ray> viewer_rays(const Mesh& mesh, const WideBvh<8>& bvh, size_t vie
     return rays;
 }
 
-double sampled_cost(const WideBvh<8>& bvh, const Mesh& mesh, std::span<const Ray> rays,
+double sampled_cost(const WideBvh<16>& bvh, const Mesh& mesh, std::span<const Ray> rays,
                     const WideCosts& costs, const Task& task) {
     std::atomic<uint64_t> boxes{0}, triangles{0};
     parallel_for(rays.size(), kGrain, [&](size_t begin, size_t end) {
@@ -65,9 +65,10 @@ double sampled_cost(const WideBvh<8>& bvh, const Mesh& mesh, std::span<const Ray
         boxes += count.nodes;
         triangles += count.tests;
     });
-    const double sum =
-        costs.node * static_cast<double>(boxes.load()) + costs.pack * static_cast<double>(triangles.load());
-    return rays.empty() ? 0.0 : sum / (8.0 * static_cast<double>(rays.size()));
+    using Bvh = WideBvh<16>;
+    const double sum = costs.node / Bvh::kWidth * static_cast<double>(boxes.load()) +
+                       costs.pack / Bvh::Pack::kSize * static_cast<double>(triangles.load());
+    return rays.empty() ? 0.0 : sum / static_cast<double>(rays.size());
 }
 
 }  // namespace boxwood

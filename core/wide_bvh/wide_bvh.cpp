@@ -148,4 +148,16 @@ template bool WideBvh<8>::any_hit(const Mesh&, ClosestHit<Mode::Fast>&, Count&) 
 template bool WideBvh<8>::any_hit(const Mesh&, ClosestHit<Mode::Fast>&, NoCount&) const;
 template NodeList WideBvh<8>::list_nodes() const;
 
+template void WideBvh<16>::closest_hit(const Mesh&, ClosestHit<Mode::Exact>&, Count&) const;
+template void WideBvh<16>::closest_hit(const Mesh&, ClosestHit<Mode::Exact>&, NoCount&) const;
+template void WideBvh<16>::closest_hit(const Mesh&, ClosestHit<Mode::Exact>&, NodeVisits&) const;
+template void WideBvh<16>::closest_hit(const Mesh&, ClosestHit<Mode::Fast>&, Count&) const;
+template void WideBvh<16>::closest_hit(const Mesh&, ClosestHit<Mode::Fast>&, NoCount&) const;
+template void WideBvh<16>::closest_hit(const Mesh&, ClosestHit<Mode::Fast>&, NodeVisits&) const;
+template bool WideBvh<16>::any_hit(const Mesh&, ClosestHit<Mode::Exact>&, Count&) const;
+template bool WideBvh<16>::any_hit(const Mesh&, ClosestHit<Mode::Exact>&, NoCount&) const;
+template bool WideBvh<16>::any_hit(const Mesh&, ClosestHit<Mode::Fast>&, Count&) const;
+template bool WideBvh<16>::any_hit(const Mesh&, ClosestHit<Mode::Fast>&, NoCount&) const;
+template NodeList WideBvh<16>::list_nodes() const;
+
 }  // namespace boxwood

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <type_traits>
 #include <vector>
 
 #include "core/base/array.h"
@@ -55,27 +58,33 @@ struct WideChild {
 
 /// Bounding volume hierarchy whose nodes have up to `Width` children, their boxes as a structure of arrays.
 /// Dammertz, Hanika, Keller, "Shallow Bounding Volume Hierarchies for Fast SIMD Ray Tracing of Incoherent
-/// Rays", EGSR 2008 (QBVH); eight children as in Wald, Benthin, Boulos, "Getting Rid of Packets", RT 2008.
+/// Rays", EGSR 2008 (QBVH); sixteen children as in Wald, Benthin, Boulos, "Getting Rid of Packets", RT 2008.
 /// Nodes in depth-first order, the root first; an empty mesh has no node. Leaves in the order of the nodes
 /// and, in a node, of the children; the packs of one stand together, those of a collapse in the order of the
 /// leaves, those of Preview and Balanced depth first.
 template <uint32_t Width>
 struct WideBvh {
-    static_assert(Width == 4 || Width == 8);
-    static constexpr const char* kFamily = Width == 4 ? "4-wide BVH" : "8-wide BVH";
+    static_assert(Width == 4 || Width == 8 || Width == 16);
+    static constexpr const char* kFamily = Width == 4   ? "4-wide BVH"
+                                           : Width == 8 ? "8-wide BVH"
+                                                        : "16-wide BVH";
     static constexpr uint32_t kWidth = Width;
     static constexpr uint32_t kMaxDepth = 64;  ///< levels of nodes below the root at most
-    /// As many triangles as a node has children: vectors of one length test both.
-    using Pack = TrianglePack<Width>;
+    /// As many triangles as a node has children, so that vectors of one length test both; at most eight, as
+    /// in most of sixteen places there would be a repetition.
+    using Pack = TrianglePack<std::min(Width, 8u)>;
+    /// The lanes of all children in some order, kLaneBits each, the first in the lowest bits.
+    using Order = std::conditional_t<Width == 4, uint8_t, std::conditional_t<Width == 8, uint32_t, uint64_t>>;
+    static constexpr uint32_t kLaneBits = std::bit_width(Width - 1);
 
     /// Children stand in the first lanes; an empty lane has a box that no ray meets: lower = infinity, upper
     /// = -infinity, its child is empty.
     struct alignas(64) Node {
         float lower[3][Width], upper[3][Width];
         WideChild children[Width];
-        /// For each ray octant (bit axis set: the direction's sign bit is), the lanes of the children front
-        /// to back, log2(Width) bits each, the first in the lowest bits. All Width lanes occur.
-        std::array<uint8_t, Width == 4 ? 8 : 24> order;
+        /// For the ray octants 0 to 3 (bit axis set: the direction's sign bit is), the lanes front to back.
+        /// Octant 7 - i is the opposite one of i: back to front.
+        std::array<Order, 4> orders;
         uint32_t first_leaf;  ///< number of its first leaf child among all leaves, in their order
 
         Box bounds(uint32_t lane) const {
@@ -90,16 +99,13 @@ struct WideBvh {
         }
         /// Lane at `rank` (0: nearest) of the order for an octant.
         uint32_t lane_at(uint32_t octant, uint32_t rank) const {
-            if constexpr (Width == 4) {
-                return (order[octant] >> (2 * rank)) & 3u;
-            } else {
-                const uint32_t bits = order[3 * octant] | static_cast<uint32_t>(order[3 * octant + 1]) << 8 |
-                                      static_cast<uint32_t>(order[3 * octant + 2]) << 16;
-                return (bits >> (3 * rank)) & 7u;
-            }
+            const bool is_opposite = octant >= 4;
+            const Order order = orders[is_opposite ? 7 - octant : octant];
+            const uint32_t place = is_opposite ? Width - 1 - rank : rank;
+            return static_cast<uint32_t>(order >> (kLaneBits * place)) & (Width - 1);
         }
     };
-    static_assert(sizeof(Node) == (Width == 4 ? 128 : 256));
+    static_assert(sizeof(Node) == 32 * Width);
 
     Array<Node> nodes;
     Array<Pack> packs;

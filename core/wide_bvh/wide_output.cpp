@@ -137,7 +137,7 @@ private:
             BOXWOOD_ASSERT(count == WideBvh<Width>::Pack::packs_for(static_cast<uint32_t>(prims.size())));
             BOXWOOD_ASSERT(count >= 1 && count <= WideChild::kMostPacks);
             node.children[lane] = WideChild::leaf(pack, count);
-            for (size_t first = 0; first < prims.size(); first += Width)
+            for (size_t first = 0; first < prims.size(); first += WideBvh<Width>::Pack::kSize)
                 set_pack(mesh_, std::span(prims).subspan(first), packs[pack++]);
         }
         set_order<Width>(node);
@@ -162,5 +162,6 @@ WideBvh<Width> make_wide(const Mesh& mesh, const Bvh2& bvh, const PrimCounts& co
 
 template WideBvh<4> make_wide(const Mesh&, const Bvh2&, const PrimCounts&, const WidePlan<4>&, const Task&);
 template WideBvh<8> make_wide(const Mesh&, const Bvh2&, const PrimCounts&, const WidePlan<8>&, const Task&);
+template WideBvh<16> make_wide(const Mesh&, const Bvh2&, const PrimCounts&, const WidePlan<16>&, const Task&);
 
 }  // namespace boxwood

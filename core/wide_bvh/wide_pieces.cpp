@@ -9,10 +9,10 @@ namespace boxwood {
 
 namespace {
 
-using Node = WideBvh<8>::Node;
+using Node = WideBvh<16>::Node;
 
 /// A node with the boxes of its children, in the order of their lanes; the other lanes are empty.
-void set_boxes(const PartTree& tree, const WideParts<8>& parts, Node& node) {
+void set_boxes(const PartTree& tree, const WideParts<16>& parts, Node& node) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
         std::ranges::fill(node.lower[axis], kInfinity);
@@ -66,7 +66,7 @@ private:
     }
 
     WideChild add_node(uint32_t root) {
-        const WideParts<8> parts = top_.children_of(root);
+        const WideParts<16> parts = top_.children_of(root);
         const uint32_t index = next_.node++;
         const size_t slot = nodes_.size();
         nodes_.push_back({index, {}});
@@ -81,7 +81,7 @@ private:
             const WidePart part = parts.parts[lane];
             node.children[lane] = part.is_leaf ? put(top_.node(part.node).first) : add_node(part.node);
         }
-        set_order<8>(node);
+        set_order<16>(node);
         nodes_[slot].node = node;
         return WideChild::inner(index);
     }
@@ -131,7 +131,7 @@ WidePiece PieceWriter::write(const PartTree& tree, const PartRoot& root, uint32_
 
 /// Adds the node that stands for a subtree, and all below it; its number.
 uint32_t PieceWriter::add_node(const PartTree& tree, uint32_t root, WidePiece& piece) {
-    const WideParts<8> parts = tree.children_of(root);
+    const WideParts<16> parts = tree.children_of(root);
     const uint32_t index = node_count_++;
     Node& node = room_[index];
     set_boxes(tree, parts, node);
@@ -141,7 +141,7 @@ uint32_t PieceWriter::add_node(const PartTree& tree, uint32_t root, WidePiece& p
         node.children[lane] = part.is_leaf ? tree.leaf(part.node) : WideChild::inner(0);
         if (part.is_leaf) ++piece.leaf_count;
     }
-    set_order<8>(node);
+    set_order<16>(node);
     for (uint32_t lane = 0; lane < parts.count; ++lane) {
         const WidePart part = parts.parts[lane];
         if (!part.is_leaf) node.children[lane] = WideChild::inner(add_node(tree, part.node, piece));
@@ -152,7 +152,7 @@ uint32_t PieceWriter::add_node(const PartTree& tree, uint32_t root, WidePiece& p
 JoinedPieces join_pieces(const PartTree& top, std::span<const WidePiece> pieces) {
     const TopWriter writer(top, pieces);
     JoinedPieces joined;
-    WideBvh<8>& bvh = joined.bvh;
+    WideBvh<16>& bvh = joined.bvh;
     bvh.leaf_count = writer.end().leaf;
     bvh.nodes.resize(writer.end().node);
     joined.pack_count = writer.end().pack;

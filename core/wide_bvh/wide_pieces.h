@@ -8,10 +8,10 @@
 
 namespace boxwood {
 
-/// What a part of the mesh becomes in an eight-wide hierarchy: a subtree, or, where there is no node, a leaf.
-/// Nodes, leaves and packs are numbered from 0.
+/// What a part of the mesh becomes in a sixteen-wide hierarchy: a subtree, or, where there is no node, a
+/// leaf. Nodes, leaves and packs are numbered from 0.
 struct WidePiece {
-    std::span<const WideBvh<8>::Node> nodes;  ///< of PieceNodes
+    std::span<const WideBvh<16>::Node> nodes;  ///< of PieceNodes
     uint32_t leaf_count = 0, pack_count = 0;
     Box4 box{};
     double cost = 0.0;  ///< see PartTree
@@ -26,12 +26,12 @@ public:
     /// Of all pieces there will be so many at most.
     explicit PieceNodes(size_t most) : most_(most) {}
     /// Unused ones for the next pieces of a thread, `least` or more. Thread-safe.
-    std::span<WideBvh<8>::Node> take(size_t least);
+    std::span<WideBvh<16>::Node> take(size_t least);
 
 private:
     const size_t most_;
     std::mutex mutex_;
-    std::deque<Array<WideBvh<8>::Node>> arrays_;
+    std::deque<Array<WideBvh<16>::Node>> arrays_;
 };
 
 /// Makes pieces out of trees, for one thread.
@@ -45,13 +45,13 @@ private:
     uint32_t add_node(const PartTree& tree, uint32_t root, WidePiece& piece);
 
     PieceNodes& memory_;
-    std::span<WideBvh<8>::Node> room_;  ///< for the next piece
-    uint32_t node_count_ = 0;           ///< that this piece has of it
+    std::span<WideBvh<16>::Node> room_;  ///< for the next piece
+    uint32_t node_count_ = 0;            ///< that this piece has of it
 };
 
 /// A hierarchy whose top is a tree with pieces as its parts, each of which occurs once.
 struct JoinedPieces {
-    WideBvh<8> bvh;                     ///< without packs
+    WideBvh<16> bvh;                    ///< without packs
     std::vector<uint32_t> first_packs;  ///< where the packs of each piece begin: in the order of the tree
     uint32_t pack_count = 0;            ///< of all pieces
 };

@@ -37,11 +37,11 @@ void any_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, std::span<const Ra
 
 /// The nearest hits of some rays, each known for sure, whose t is still to be computed: that is done for as
 /// many as a vector has lanes.
-template <Mode mode, uint32_t Width>
+template <Mode mode, uint32_t Size>
 class SureHits {
 public:
     /// At most FloatRays::kCount, between two calls of write.
-    HWY_INLINE void add(const Ray& ray, const TrianglePack<Width>& pack, uint32_t lane, Hit& hit) {
+    HWY_INLINE void add(const Ray& ray, const TrianglePack<Size>& pack, uint32_t lane, Hit& hit) {
         for (int axis = 0; axis < 3; ++axis) {
             origin_[axis][count_] = ray.origin[axis];
             direction_[axis][count_] = ray.direction[axis];
@@ -136,9 +136,9 @@ private:
 
 /// The nearest hit so far: as an interval of t as long as floats decide the order, by ClosestHit from the
 /// first time they do not.
-template <Mode mode, uint32_t Width>
+template <Mode mode, uint32_t Size>
 struct Search {
-    using Pack = TrianglePack<Width>;
+    using Pack = TrianglePack<Size>;
 
     const Ray& ray;
     float limit;  ///< no hit beyond it counts
@@ -150,7 +150,7 @@ struct Search {
     HWY_INLINE explicit Search(const Ray& searched) : ray(searched), limit(searched.t_max) {}
 
     /// Takes the lanes of a pack that are open.
-    HWY_INLINE void keep(const Pack& hit_pack, const PackHits<Width>& hits) {
+    HWY_INLINE void keep(const Pack& hit_pack, const PackHits<Size>& hits) {
         for (uint32_t open = hits.open; open != 0; open &= open - 1) {
             const uint32_t i = static_cast<uint32_t>(std::countr_zero(open));
             if ((hits.sure >> i & 1) == 0 || decided) {
@@ -185,7 +185,7 @@ struct Search {
         }
     }
     /// Sets the hit, or adds it to those whose t is still to be computed.
-    HWY_INLINE void finish(const Mesh& mesh, Hit& hit, SureHits<mode, Width>& sure) const {
+    HWY_INLINE void finish(const Mesh& mesh, Hit& hit, SureHits<mode, Size>& sure) const {
         if (decided) {
             hit = decided->hit(mesh);
         } else if (prim != kNoIndex) {
@@ -197,14 +197,14 @@ struct Search {
 };
 
 /// Whether anything lies on the ray.
-template <Mode mode, uint32_t Width>
+template <Mode mode, uint32_t Size>
 struct Occlusion {
     const Ray& ray;
     std::optional<ClosestHit<mode> > decided;
 
     HWY_INLINE explicit Occlusion(const Ray& searched) : ray(searched) {}
 
-    HWY_INLINE bool is_hit(const TrianglePack<Width>& pack, const PackHits<Width>& hits) {
+    HWY_INLINE bool is_hit(const TrianglePack<Size>& pack, const PackHits<Size>& hits) {
         for (uint32_t open = hits.open; open != 0; open &= open - 1) {
             const uint32_t i = static_cast<uint32_t>(std::countr_zero(open));
             const bool is_sure =
@@ -213,42 +213,12 @@ struct Occlusion {
         }
         return false;
     }
-    HWY_NOINLINE bool decide(const TrianglePack<Width>& pack, uint32_t i) {
+    HWY_NOINLINE bool decide(const TrianglePack<Size>& pack, uint32_t i) {
         NoCount count;
         if (!decided) decided.emplace(ray);
         return decided->occludes(pack.triangle(i), count);
     }
 };
-
-#if HWY_TARGET > HWY_AVX3
-/// Lanes of the set bits of a mask, ascending; the rest is 0.
-struct LanesOfMask {
-    uint8_t lanes[256][8]{};
-    constexpr LanesOfMask() {
-        for (uint32_t mask = 0; mask < 256; ++mask) {
-            uint32_t count = 0;
-            for (uint8_t lane = 0; lane < 8; ++lane)
-                if ((mask >> lane & 1) != 0) lanes[mask][count++] = lane;
-        }
-    }
-};
-alignas(64) constexpr LanesOfMask kLanesOfMask;
-#endif
-
-/// The lanes of a mask first. Highway 1.0's own is slow where the processor has no such instruction.
-template <class D>
-HWY_INLINE hn::Vec<D> lanes_first(D d, hn::Vec<D> v, [[maybe_unused]] hn::Mask<D> mask,
-                                  [[maybe_unused]] uint32_t bits) {
-#if HWY_TARGET <= HWY_AVX3
-    static_cast<void>(d);
-    return hn::Compress(v, mask);
-#else
-    const hn::RebindToUnsigned<D> du;
-    const hn::Rebind<uint8_t, D> d8;
-    const auto lanes = hn::PromoteTo(du, hn::LoadU(d8, kLanesOfMask.lanes[bits]));
-    return hn::TableLookupLanes(v, hn::IndicesFromVec(d, lanes));
-#endif
-}
 
 /// Children to be visited, the next one last, with the parameters at which the ray enters them. A node adds
 /// at most its width; vectors are written whole. At the bottom stands an empty child. Its size is kept beside
@@ -274,7 +244,7 @@ struct Stack {
             const auto entry = hn::LoadU(d, entries + first);
             const auto child = hn::LoadU(du, children + first);
             const auto is_kept = hn::And(hn::Le(entry, most), hn::FirstN(d, count - first));
-            const uint32_t bits = bits_of(d, is_kept);
+            const uint32_t bits = mask_bits(d, is_kept);
             hn::StoreU(lanes_first(d, entry, is_kept, bits), d, entries + kept);
             hn::StoreU(lanes_first(du, child, hn::RebindMask(du, is_kept), bits), du, children + kept);
             kept += static_cast<uint32_t>(std::popcount(bits));
@@ -287,62 +257,47 @@ struct Stack {
 constexpr size_t kLarge = size_t{128} << 20;
 
 /// The next two packs, which are those of neighbouring leaves, where the next rays often go.
-template <uint32_t Width>
-HWY_INLINE void prefetch_after(const TrianglePack<Width>* pack) {
+template <uint32_t Size>
+HWY_INLINE void prefetch_after(const TrianglePack<Size>* pack) {
     const char* const bytes = reinterpret_cast<const char*>(pack + 1);
     for (size_t at = 0; at < 2 * sizeof(*pack); at += 64) hwy::Prefetch(bytes + at);
 }
 
 /// Adds the children whose boxes the ray meets to the stack, but for the nearest in the order of the ray's
-/// octant, which is returned; the one on top of the stack if there is none. The nearest does not wait for
-/// the stack's memory.
+/// octant, which is returned; the one on top of the stack if there is none.
 template <uint32_t Width>
 HWY_INLINE WideChild next_child(const WideBvh<Width>& bvh, uint32_t index, const BoxRay<Width>& ray,
-                                uint32_t octant, float limit, Stack<Width>& stack, uint32_t& count) {
-    const hn::CappedTag<float, Width> d;
-    using V = hn::Vec<decltype(d)>;
+                                const ChildLanes<Width>& lanes, float limit, Stack<Width>& stack,
+                                uint32_t& count) {
+    using Lanes = ChildLanes<Width>;
+    const typename Lanes::D d;
+    const typename Lanes::DU du;
     const typename WideBvh<Width>::Node& node = bvh.nodes[index];
     const size_t at = ray.place_of(index);
-    if constexpr (hn::MaxLanes(d) == Width) {
-        const hn::RebindToUnsigned<decltype(d)> du;
-        const V entry = ray.entry(at), exit = ray.exit(at, limit);
-        const uint32_t met = bits_of(d, hn::Le(entry, exit));
-        if (met == 0) return stack.pop(count);
-        if ((met & (met - 1)) == 0) return node.children[std::countr_zero(met)];
-        // The lanes back to front.
-        constexpr uint32_t kBits = Width == 4 ? 2 : 3, kLast = Width - 1;
-        uint32_t order;
-        std::memcpy(&order, &node.order[octant * kBits * Width / 8], sizeof(order));
-        HWY_ALIGN static constexpr uint32_t kShifts[8] = {7 * kBits, 6 * kBits, 5 * kBits, 4 * kBits,
-                                                          3 * kBits, 2 * kBits, kBits,     0};
-        const auto lanes =
-            hn::And(hn::Shr(hn::Set(du, order), hn::LoadU(du, kShifts + 8 - Width)), hn::Set(du, kLast));
-        const auto indices = hn::IndicesFromVec(d, lanes);
-        const V entries = hn::TableLookupLanes(entry, indices), exits = hn::TableLookupLanes(exit, indices);
-        const V children =
-            hn::TableLookupLanes(hn::BitCast(d, hn::Load(du, &node.children[0].bits)), indices);
-        const auto is_met = hn::Le(entries, exits);
-        const uint32_t ranks = bits_of(d, is_met);
-        hn::StoreU(lanes_first(d, entries, is_met, ranks), d, stack.entries + count);
-        hn::StoreU(hn::BitCast(du, lanes_first(d, children, is_met, ranks)), du, stack.children + count);
-        count += static_cast<uint32_t>(std::popcount(ranks)) - 1;
-        const uint32_t nearest = Width - static_cast<uint32_t>(std::bit_width(ranks));
-        return node.children[order >> (kBits * nearest) & kLast];
+    typename Lanes::V entry[Lanes::kParts], exit[Lanes::kParts];
+    uint32_t met = 0;
+    for (size_t part = 0; part < Lanes::kParts; ++part) {
+        const size_t first = part * hn::MaxLanes(d);
+        entry[part] = ray.entry(at + first);
+        exit[part] = ray.exit(at + first, limit);
+        met |= mask_bits(d, hn::Le(entry[part], exit[part])) << first;
+    }
+    if (met == 0) return stack.pop(count);
+    if ((met & (met - 1)) == 0) return node.children[std::countr_zero(met)];
+    if constexpr (Lanes::kHasPush) {
+        typename Lanes::VU children[Lanes::kParts];
+        for (size_t part = 0; part < Lanes::kParts; ++part)
+            children[part] = hn::Load(du, &node.children[part * hn::MaxLanes(d)].bits);
+        return node
+            .children[lanes.push_met(node, entry, exit, children, stack.entries, stack.children, count)];
     } else {
         HWY_ALIGN float entries[Width];
-        uint32_t met = 0;
-        for (size_t first = 0; first < Width; first += hn::Lanes(d)) {
-            const V entry = ray.entry(at + first);
-            hn::Store(entry, d, entries + first);
-            met |= bits_of(d, hn::Le(entry, ray.exit(at + first, limit))) << first;
-        }
-        for (uint32_t rank = Width; met != 0; --rank) {
-            const uint32_t lane = node.lane_at(octant, rank - 1);
-            if ((met >> lane & 1) == 0) continue;
-            met &= ~(1u << lane);
+        for (size_t part = 0; part < Lanes::kParts; ++part)
+            hn::Store(entry[part], d, entries + part * hn::MaxLanes(d));
+        lanes.for_each_back_to_front(node, met, [&](uint32_t lane) {
             stack.children[count] = node.children[lane].bits;
             stack.entries[count++] = entries[lane];
-        }
+        });
         return stack.pop(count);
     }
 }
@@ -356,44 +311,43 @@ HWY_INLINE WideChild next_unordered(const WideBvh<Width>& bvh, uint32_t index, c
     const size_t at = ray.place_of(index);
     uint32_t met = 0;
     for (size_t first = 0; first < Width; first += hn::Lanes(d))
-        met |= bits_of(d, hn::Le(ray.entry(at + first), ray.exit(at + first, limit))) << first;
+        met |= mask_bits(d, hn::Le(ray.entry(at + first), ray.exit(at + first, limit))) << first;
     if (met == 0) return {stack[--count]};
     const WideChild nearest = node.children[std::countr_zero(met)];
     met &= met - 1;
     if (met == 0) return nearest;
-    if constexpr (hn::MaxLanes(d) == Width) {
-        const hn::RebindToUnsigned<decltype(d)> du;
-        const auto children = hn::Load(du, &node.children[0].bits);
-        const uint8_t bits = static_cast<uint8_t>(met);
-        hn::StoreU(lanes_first(du, children, hn::LoadMaskBits(du, &bits), met), du, stack + count);
-        count += static_cast<uint32_t>(std::popcount(met));
-    } else {
-        for (; met != 0; met &= met - 1) stack[count++] = node.children[std::countr_zero(met)].bits;
+    const hn::RebindToUnsigned<decltype(d)> du;
+    for (size_t first = 0; first < Width; first += hn::Lanes(d)) {
+        const uint32_t bits = met >> first & ((1u << hn::MaxLanes(d)) - 1);
+        const auto children = hn::Load(du, &node.children[first].bits);
+        hn::StoreU(lanes_first(du, children, mask_of(du, bits), bits), du, stack + count);
+        count += static_cast<uint32_t>(std::popcount(bits));
     }
     return nearest;
 }
 
 template <Mode mode, uint32_t Width>
 HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>& rays, size_t i,
-                               Search<mode, Width>& search) {
-    const BoxRay<Width> box_ray(rays, i, bvh.nodes.data());
-    const FloatRay<mode, Width> ray(rays, i);
+                               Search<mode, WideBvh<Width>::Pack::kSize>& search) {
+    const Planes<Width> planes(rays.octant[i]);
     const auto* const packs = bvh.packs.data();
     const bool is_large = bvh.byte_count() > kLarge;
-    const uint32_t octant = rays.octant[i];
+    const ChildLanes<Width> lanes(rays.octant[i]);
     Stack<Width> stack;
     uint32_t count = 1;
     WideChild child = WideChild::inner(0);
     while (true) {
+        const BoxRay<Width> box_ray(rays, i, planes, bvh.nodes.data());
         while (child.is_inner())
-            child = next_child(bvh, child.node(), box_ray, octant, search.limit, stack, count);
+            child = next_child(bvh, child.node(), box_ray, lanes, search.limit, stack, count);
         if (child.is_empty()) return;
         const auto* pack = packs + child.first_pack();
         const auto* const end = pack + child.pack_count();
         if (is_large) prefetch_after(pack);
+        const FloatRay<mode, WideBvh<Width>::Pack::kSize> ray(rays, i);
         const float limit = search.limit;
         for (; pack != end; ++pack) {
-            PackHits<Width> hits;
+            PackHits<WideBvh<Width>::Pack::kSize> hits;
             if (test_pack(*pack, ray, search.limit, hits)) search.keep(*pack, hits);
         }
         if (search.limit < limit) count = stack.prune(search.limit, count);
@@ -403,9 +357,8 @@ HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>&
 
 template <Mode mode, uint32_t Width>
 HWY_NOINLINE bool find_any(const WideBvh<Width>& bvh, const FloatRays<mode>& rays, size_t i,
-                           Occlusion<mode, Width>& occlusion) {
-    const BoxRay<Width> box_ray(rays, i, bvh.nodes.data());
-    const FloatRay<mode, Width> ray(rays, i);
+                           Occlusion<mode, WideBvh<Width>::Pack::kSize>& occlusion) {
+    const Planes<Width> planes(rays.octant[i]);
     const auto* const packs = bvh.packs.data();
     const bool is_large = bvh.byte_count() > kLarge;
     const float limit = rays.t_max[i];
@@ -414,13 +367,15 @@ HWY_NOINLINE bool find_any(const WideBvh<Width>& bvh, const FloatRays<mode>& ray
     uint32_t count = 1;
     WideChild child = WideChild::inner(0);
     while (true) {
+        const BoxRay<Width> box_ray(rays, i, planes, bvh.nodes.data());
         while (child.is_inner()) child = next_unordered(bvh, child.node(), box_ray, limit, stack, count);
         if (child.is_empty()) return false;
         const auto* pack = packs + child.first_pack();
         const auto* const end = pack + child.pack_count();
         if (is_large) prefetch_after(pack);
+        const FloatRay<mode, WideBvh<Width>::Pack::kSize> ray(rays, i);
         for (; pack != end; ++pack) {
-            PackHits<Width> hits;
+            PackHits<WideBvh<Width>::Pack::kSize> hits;
             if (test_pack(*pack, ray, limit, hits) && occlusion.is_hit(*pack, hits)) return true;
         }
         child = {stack[--count]};
@@ -454,11 +409,11 @@ HWY_NOINLINE void closest_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, s
                                   std::span<Hit> hits, const Task& task) {
     std::ranges::fill(hits, Hit{});
     if (bvh.nodes.empty()) return;
-    SureHits<mode, Width> sure;
+    SureHits<mode, WideBvh<Width>::Pack::kSize> sure;
     for_each_ray<mode>(
         bvh, rays, task,
         [&](const FloatRays<mode>& prepared, size_t i, size_t number) {
-            Search<mode, Width> search(rays[number]);
+            Search<mode, WideBvh<Width>::Pack::kSize> search(rays[number]);
             find_closest<mode, Width>(bvh, prepared, i, search);
             search.finish(mesh, hits[number], sure);
         },
@@ -474,7 +429,7 @@ HWY_NOINLINE void any_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, std::
     for_each_ray<mode>(
         bvh, rays, task,
         [&](const FloatRays<mode>& prepared, size_t i, size_t number) {
-            Occlusion<mode, Width> occlusion(rays[number]);
+            Occlusion<mode, WideBvh<Width>::Pack::kSize> occlusion(rays[number]);
             occluded[number] = find_any<mode, Width>(bvh, prepared, i, occlusion) ? 1 : 0;
         },
         [&](size_t number) { occluded[number] = plain_any_hit<mode>(bvh, mesh, rays[number], task) ? 1 : 0; },
@@ -494,6 +449,11 @@ void closest_hits8(const WideBvh<8>& bvh, const Mesh& mesh, std::span<const Ray>
     mode == Mode::Exact ? closest_hits_in<Mode::Exact>(bvh, mesh, rays, hits, task)
                         : closest_hits_in<Mode::Fast>(bvh, mesh, rays, hits, task);
 }
+void closest_hits16(const WideBvh<16>& bvh, const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                    Mode mode, const Task& task) {
+    mode == Mode::Exact ? closest_hits_in<Mode::Exact>(bvh, mesh, rays, hits, task)
+                        : closest_hits_in<Mode::Fast>(bvh, mesh, rays, hits, task);
+}
 void any_hits4(const WideBvh<4>& bvh, const Mesh& mesh, std::span<const Ray> rays,
                std::span<uint8_t> occluded, Mode mode, const Task& task) {
     mode == Mode::Exact ? any_hits_in<Mode::Exact>(bvh, mesh, rays, occluded, task)
@@ -501,6 +461,11 @@ void any_hits4(const WideBvh<4>& bvh, const Mesh& mesh, std::span<const Ray> ray
 }
 void any_hits8(const WideBvh<8>& bvh, const Mesh& mesh, std::span<const Ray> rays,
                std::span<uint8_t> occluded, Mode mode, const Task& task) {
+    mode == Mode::Exact ? any_hits_in<Mode::Exact>(bvh, mesh, rays, occluded, task)
+                        : any_hits_in<Mode::Fast>(bvh, mesh, rays, occluded, task);
+}
+void any_hits16(const WideBvh<16>& bvh, const Mesh& mesh, std::span<const Ray> rays,
+                std::span<uint8_t> occluded, Mode mode, const Task& task) {
     mode == Mode::Exact ? any_hits_in<Mode::Exact>(bvh, mesh, rays, occluded, task)
                         : any_hits_in<Mode::Fast>(bvh, mesh, rays, occluded, task);
 }
@@ -514,8 +479,10 @@ namespace boxwood {
 
 HWY_EXPORT(closest_hits4);
 HWY_EXPORT(closest_hits8);
+HWY_EXPORT(closest_hits16);
 HWY_EXPORT(any_hits4);
 HWY_EXPORT(any_hits8);
+HWY_EXPORT(any_hits16);
 
 template <>
 void WideBvh<4>::closest_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits, Mode mode,
@@ -528,6 +495,11 @@ void WideBvh<8>::closest_hits(const Mesh& mesh, std::span<const Ray> rays, std::
     HWY_DYNAMIC_DISPATCH(closest_hits8)(*this, mesh, rays, hits, mode, task);
 }
 template <>
+void WideBvh<16>::closest_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<Hit> hits, Mode mode,
+                               const Task& task) const {
+    HWY_DYNAMIC_DISPATCH(closest_hits16)(*this, mesh, rays, hits, mode, task);
+}
+template <>
 void WideBvh<4>::any_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<uint8_t> occluded, Mode mode,
                           const Task& task) const {
     HWY_DYNAMIC_DISPATCH(any_hits4)(*this, mesh, rays, occluded, mode, task);
@@ -536,6 +508,11 @@ template <>
 void WideBvh<8>::any_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<uint8_t> occluded, Mode mode,
                           const Task& task) const {
     HWY_DYNAMIC_DISPATCH(any_hits8)(*this, mesh, rays, occluded, mode, task);
+}
+template <>
+void WideBvh<16>::any_hits(const Mesh& mesh, std::span<const Ray> rays, std::span<uint8_t> occluded,
+                           Mode mode, const Task& task) const {
+    HWY_DYNAMIC_DISPATCH(any_hits16)(*this, mesh, rays, occluded, mode, task);
 }
 
 }  // namespace boxwood
