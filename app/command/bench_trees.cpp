@@ -9,9 +9,8 @@ namespace {
 constexpr const char* kTreesFooter =
     "A promise is VALUE: RECIPE <= [FACTOR *] RECIPE, for example\n"
     "\"sah_cost: bvh-sweep-sah <= 1.1 * bvh-binned-sah\". Values: sah_cost, in triangle tests;\n"
-    "wide_cost, of wide BVHs, with the costs of nodes and packs of wide4, wide8 and wide16; references in "
-    "leaves; "
-    "nodes; bytes.\n"
+    "wide_cost, of wide BVHs, with the costs of nodes and packs of wide4, wide8 and wide16;\n"
+    "references in leaves; nodes; bytes.\n"
     "Exit code 1 where a promise does not hold on a scene.\n\n";
 
 }  // namespace

@@ -98,11 +98,14 @@ public:
     static constexpr bool kHasPush = kParts == 1 || (kParts == 2 && hn::MaxLanes(D()) == 8);
 
     HWY_INLINE explicit ChildLanes(uint32_t octant)
-        : octant_(octant), row_(octant < 4 ? octant : 7 - octant), is_opposite_(octant >= 4) {
+        : octant_(octant),
+          row_(octant < 4 ? octant : 7 - octant),
+          last_word_(octant < 4 ? 1 : 0),
+          last_place_(octant < 4 ? Width - 1 : 0) {
         HWY_ALIGN static constexpr uint32_t kPlaces[2][16] = {
             {7, 6, 5, 4, 3, 2, 1, 0, 7, 6, 5, 4, 3, 2, 1, 0},
             {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7}};
-        const VU places = hn::LoadU(DU(), kPlaces[is_opposite_] + (Width == 4 && !is_opposite_ ? 4 : 0));
+        const VU places = hn::LoadU(DU(), octant < 4 ? kPlaces[0] + (Width == 4 ? 4 : 0) : kPlaces[1]);
         shifts_ = hn::Mul(places, hn::Set(DU(), WideBvh<Width>::kLaneBits));
     }
     /// Calls visit(lane) for each of the lanes whose bits are set in `met`, back to front.
@@ -136,8 +139,8 @@ public:
             ranks |= bits << (part * hn::MaxLanes(d));
         }
         --count;
-        const uint32_t nearest = static_cast<uint32_t>(std::bit_width(ranks)) - 1;
-        const uint32_t place = nearest ^ (is_opposite_ ? 0 : Width - 1);
+        const auto nearest = 31 - static_cast<uint32_t>(hwy::Num0BitsAboveMS1Bit_Nonzero32(ranks));
+        const uint32_t place = nearest ^ last_place_;
         return static_cast<uint32_t>(node.orders[row_] >> (WideBvh<Width>::kLaneBits * place)) & (Width - 1);
     }
 
@@ -149,16 +152,20 @@ private:
         if constexpr (Width < 16) {
             order = hn::Set(du, node.orders[row_]);
         } else {
-            uint32_t words[2];
-            std::memcpy(words, &node.orders[row_], sizeof words);
+            const VU back = hn::Set(du, word(node.orders[row_], last_word_ ^ part));
             if constexpr (kParts == 1) {
-                order = hn::IfThenElse(hn::FirstN(du, 8), hn::Set(du, words[is_opposite_ ? 0 : 1]),
-                                       hn::Set(du, words[is_opposite_ ? 1 : 0]));
+                order = hn::IfThenElse(hn::FirstN(du, 8), back,
+                                       hn::Set(du, word(node.orders[row_], last_word_ ^ 1)));
             } else {
-                order = hn::Set(du, words[is_opposite_ ? part : 1 - part]);
+                order = back;
             }
         }
         return hn::And(hn::Shr(order, shifts_), hn::Set(du, Width - 1));
+    }
+    static HWY_INLINE uint32_t word(const uint64_t& order, uint32_t number) {
+        uint32_t result;
+        std::memcpy(&result, reinterpret_cast<const char*>(&order) + sizeof result * number, sizeof result);
+        return result;
     }
     template <class Vector>
     static HWY_INLINE V lookup(const Vector (&parts)[kParts], VU lanes) {
@@ -175,9 +182,11 @@ private:
         }
     }
 
-    uint32_t octant_, row_;
-    bool is_opposite_;
-    VU shifts_;  ///< of the lanes back to front, in an order or half of it
+    uint32_t octant_;
+    uint32_t row_;         ///< of the orders
+    uint32_t last_word_;   ///< of an order of two, that of the farthest lanes
+    uint32_t last_place_;  ///< in an order, of the farthest lane
+    VU shifts_;            ///< of the lanes back to front, in an order or half of it
 };
 
 #endif
