@@ -24,8 +24,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Bit i: lane i, of up to 16. And the other way.
 template <class D>
 HWY_INLINE uint32_t mask_bits(D d, hn::Mask<D> mask) {
-    uint8_t bytes[8] = {};
+    uint8_t bytes[8];
     hn::StoreMaskBits(d, mask, bytes);
+    if constexpr (hn::MaxLanes(d) <= 8) return bytes[0];
     uint16_t bits;
     std::memcpy(&bits, bytes, sizeof bits);
     return bits;
