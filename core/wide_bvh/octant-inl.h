@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Bit i: lane i, of up to 16. And the other way.
+/// Bit i: lane i, of up to 16.
 template <class D>
 HWY_INLINE uint32_t mask_bits(D d, hn::Mask<D> mask) {
     uint8_t bytes[8];
@@ -32,6 +32,7 @@ HWY_INLINE uint32_t mask_bits(D d, hn::Mask<D> mask) {
     return bits;
 }
 
+/// The other way.
 template <class D>
 HWY_INLINE hn::Mask<D> mask_of(D d, uint32_t bits) {
     const uint8_t bytes[8] = {static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8)};

@@ -326,9 +326,16 @@ HWY_INLINE WideChild next_unordered(const WideBvh<Width>& bvh, uint32_t index, c
     return nearest;
 }
 
+/// Triangles of a pack.
+template <uint32_t Width>
+constexpr uint32_t kPackSize = WideBvh<Width>::Pack::kSize;
+
+// A ray's constants are made anew for every run of nodes and for every leaf. Kept over the triangles' tests,
+// where a function is called, they would lie in memory, and each node would read all of them from there.
+
 template <Mode mode, uint32_t Width>
 HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>& rays, size_t i,
-                               Search<mode, WideBvh<Width>::Pack::kSize>& search) {
+                               Search<mode, kPackSize<Width> >& search) {
     const Planes<Width> planes(rays.octant[i]);
     const auto* const packs = bvh.packs.data();
     const bool is_large = bvh.byte_count() > kLarge;
@@ -344,10 +351,10 @@ HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>&
         const auto* pack = packs + child.first_pack();
         const auto* const end = pack + child.pack_count();
         if (is_large) prefetch_after(pack);
-        const FloatRay<mode, WideBvh<Width>::Pack::kSize> ray(rays, i);
+        const FloatRay<mode, kPackSize<Width> > ray(rays, i);
         const float limit = search.limit;
         for (; pack != end; ++pack) {
-            PackHits<WideBvh<Width>::Pack::kSize> hits;
+            PackHits<kPackSize<Width> > hits;
             if (test_pack(*pack, ray, search.limit, hits)) search.keep(*pack, hits);
         }
         if (search.limit < limit) count = stack.prune(search.limit, count);
@@ -357,7 +364,7 @@ HWY_NOINLINE void find_closest(const WideBvh<Width>& bvh, const FloatRays<mode>&
 
 template <Mode mode, uint32_t Width>
 HWY_NOINLINE bool find_any(const WideBvh<Width>& bvh, const FloatRays<mode>& rays, size_t i,
-                           Occlusion<mode, WideBvh<Width>::Pack::kSize>& occlusion) {
+                           Occlusion<mode, kPackSize<Width> >& occlusion) {
     const Planes<Width> planes(rays.octant[i]);
     const auto* const packs = bvh.packs.data();
     const bool is_large = bvh.byte_count() > kLarge;
@@ -373,9 +380,9 @@ HWY_NOINLINE bool find_any(const WideBvh<Width>& bvh, const FloatRays<mode>& ray
         const auto* pack = packs + child.first_pack();
         const auto* const end = pack + child.pack_count();
         if (is_large) prefetch_after(pack);
-        const FloatRay<mode, WideBvh<Width>::Pack::kSize> ray(rays, i);
+        const FloatRay<mode, kPackSize<Width> > ray(rays, i);
         for (; pack != end; ++pack) {
-            PackHits<WideBvh<Width>::Pack::kSize> hits;
+            PackHits<kPackSize<Width> > hits;
             if (test_pack(*pack, ray, limit, hits) && occlusion.is_hit(*pack, hits)) return true;
         }
         child = {stack[--count]};
@@ -409,11 +416,11 @@ HWY_NOINLINE void closest_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, s
                                   std::span<Hit> hits, const Task& task) {
     std::ranges::fill(hits, Hit{});
     if (bvh.nodes.empty()) return;
-    SureHits<mode, WideBvh<Width>::Pack::kSize> sure;
+    SureHits<mode, kPackSize<Width> > sure;
     for_each_ray<mode>(
         bvh, rays, task,
         [&](const FloatRays<mode>& prepared, size_t i, size_t number) {
-            Search<mode, WideBvh<Width>::Pack::kSize> search(rays[number]);
+            Search<mode, kPackSize<Width> > search(rays[number]);
             find_closest<mode, Width>(bvh, prepared, i, search);
             search.finish(mesh, hits[number], sure);
         },
@@ -429,7 +436,7 @@ HWY_NOINLINE void any_hits_in(const WideBvh<Width>& bvh, const Mesh& mesh, std::
     for_each_ray<mode>(
         bvh, rays, task,
         [&](const FloatRays<mode>& prepared, size_t i, size_t number) {
-            Occlusion<mode, WideBvh<Width>::Pack::kSize> occlusion(rays[number]);
+            Occlusion<mode, kPackSize<Width> > occlusion(rays[number]);
             occluded[number] = find_any<mode, Width>(bvh, prepared, i, occlusion) ? 1 : 0;
         },
         [&](size_t number) { occluded[number] = plain_any_hit<mode>(bvh, mesh, rays[number], task) ? 1 : 0; },
