@@ -114,9 +114,9 @@ typename WideBvh<Width>::Node any_node(Rng& rng) {
         std::vector<uint32_t> lanes(Width);
         for (uint32_t lane = 0; lane < Width; ++lane) lanes[lane] = lane;
         for (uint32_t rank = Width; rank > 1; --rank) std::swap(lanes[rank - 1], lanes[rng.next_index(rank)]);
-        order = 0;
-        for (uint32_t rank = Width; rank-- > 0;)
-            order = static_cast<Order>(order << WideBvh<Width>::kLaneBits | lanes[rank]);
+        uint64_t bits = 0;
+        for (uint32_t rank = Width; rank-- > 0;) bits = bits << WideBvh<Width>::kLaneBits | lanes[rank];
+        order = static_cast<Order>(bits);
     }
     return node;
 }
