@@ -5,6 +5,7 @@
 #include "core/bvh/binned_sah.h"
 #include "core/refs/prim_ref.h"
 #include "core/scene/scene.h"
+#include "support/random_mesh.h"
 
 namespace boxwood {
 namespace {
