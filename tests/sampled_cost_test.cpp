@@ -81,7 +81,7 @@ TEST(SampledCost, ViewersStandInTheSceneAndSeeABounceOfWhatTheyHit) {
         EXPECT_LE(glm::dot(normal, DVec3(rays[i].direction)) * glm::dot(normal, DVec3(bounced.direction)),
                   0.0)
             << "goes on behind the surface";
-        const DVec3 point = DVec3(rays[i].origin) + double{hits[i].t} * DVec3(rays[i].direction);
+        const DVec3 point = DVec3(rays[i].origin) + static_cast<double>(hits[i].t) * DVec3(rays[i].direction);
         EXPECT_LT(glm::distance(point, DVec3(bounced.origin)), 1e-3);
     }
     EXPECT_EQ(viewer_rays(scene->mesh, bvh, 10, task).front().origin, rays.front().origin);
