@@ -29,14 +29,13 @@ constexpr size_t kViewers = 2048;  ///< whose rays tell `best` whether pieces or
 constexpr double kClearlyLess = 0.95;
 constexpr size_t kPartsAtOnce = 8;  ///< that a thread takes with the same memory
 
-template <uint32_t Width>
 WideCosts collapse_costs() {
-    const Collapse<Width> collapse;
+    const Collapse<16> collapse;
     return {static_cast<double>(collapse.node_cost), static_cast<double>(collapse.pack_cost)};
 }
 
 PartCosts part_costs() {
-    const WideCosts costs = collapse_costs<16>();
+    const WideCosts costs = collapse_costs();
     return {costs.node, costs.pack, static_cast<uint32_t>(Collapse<16>{}.leaf_size) / Pack8::kSize};
 }
 
@@ -205,7 +204,7 @@ WideBvh<16> Best::build(const Mesh& mesh, std::span<const PrimRef> refs, Task& t
     WideBvh<16> cut = finish(splits.build(mesh, refs, task));
     const std::vector<Ray> rays = viewer_rays(mesh, whole, kViewers, task);
     const auto cost_of = [&](const WideBvh<16>& bvh) {
-        return sampled_cost(bvh, mesh, rays, collapse_costs<16>(), task);
+        return sampled_cost(bvh, mesh, rays, collapse_costs(), task);
     };
     if (kClearlyLess * cost_of(cut) < cost_of(whole)) return cut;
     task.skipped.add("cheaper whole than split", refs.size());
