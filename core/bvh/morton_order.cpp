@@ -165,10 +165,9 @@ uint64_t MortonGrid::code(const PrimRef& ref) const {
 
 uint64_t MortonGrid::leading_code(const PrimRef& ref) const {
     const Int4 c = cell(ref) >> (kAxisBits - kLeadingAxisBits);
-    uint64_t code = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        code |= uint64_t{kSpread[static_cast<uint32_t>(c[axis])]} << shift_[axis];
-    return code;
+    const auto spread_at = [&](uint32_t cell, int axis) { return uint64_t{kSpread[cell]} << shift_[axis]; };
+    return spread_at(static_cast<uint32_t>(c[0]), 0) | spread_at(static_cast<uint32_t>(c[1]), 1) |
+           spread_at(static_cast<uint32_t>(c[2]), 2);
 }
 
 MortonOrder morton_order(std::span<const PrimRef> refs, uint32_t run_limit, const Task& task) {
