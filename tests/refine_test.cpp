@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "oracle/polygon.h"
+#include "support/skipped.h"
 #include "support/triangle_soup.h"
 
 namespace boxwood {
@@ -14,12 +15,6 @@ namespace {
 References make(const Mesh& mesh, const Refinement& method) {
     Task task;
     return method.make(mesh, task);
-}
-
-uint64_t skipped(const Task& task, const std::string& reason) {
-    const auto counts = task.skipped.counts();
-    const auto found = counts.find(reason);
-    return found == counts.end() ? 0 : found->second;
 }
 
 std::vector<Box> boxes_of(std::span<const PrimRef> refs, uint32_t prim) {

@@ -1,114 +1,139 @@
 #include "core/wide_bvh/child_order.h"
 
-#include <cstring>
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/wide_bvh/child_order.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <hwy/highway.h>
+
 #include <limits>
 
-#include "core/bvh/box4.h"
-
+HWY_BEFORE_NAMESPACE();
 namespace boxwood {
+namespace HWY_NAMESPACE {
 
-namespace {
+namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr uint32_t kOctants = 4;                                ///< the others are their opposites
-constexpr float kSmallest = std::numeric_limits<float>::min();  ///< two flat boxes reach so far
-
-/// The lanes of a node, four in each register.
+/// The lanes of a node. Only operations that round as their scalar forms are used, so every instruction set
+/// gives the same orders.
 template <uint32_t Width>
-using Lanes = std::array<Float4, Width / 4>;
-using Short8 = int16_t __attribute__((vector_size(16)));
-constexpr Short8 kLane = {0, 1, 2, 3, 4, 5, 6, 7};
-/// A small number for each lane of a node, eight in each register.
-template <uint32_t Width>
-using Numbers = std::array<Short8, (Width + 7) / 8>;
+struct NodeLanes {
+    using D = hn::CappedTag<float, Width>;
+    using DI = hn::RebindToSigned<D>;
+    using V = hn::Vec<D>;
+    using VI = hn::Vec<DI>;
+    static constexpr uint32_t kLanes = hn::MaxLanes(D()), kParts = Width / kLanes;
+    static constexpr uint32_t kOctants = 4;  ///< the others are their opposites
 
-Float4 load4(const float* from) {
-    Float4 result;
-    std::memcpy(&result, from, sizeof result);
-    return result;
-}
+    /// For each octant: the others that the child is before. Nothing for empty lanes, whose centres are NaN.
+    VI wins[kOctants][kParts];
 
-Short8 splat16(uint32_t value) {
-    const auto v = static_cast<int16_t>(value);
-    return Short8{v, v, v, v, v, v, v, v};
-}
-
-/// For each octant: the others that the child is before. 0 for empty lanes, whose centres are NaN, and for
-/// those that the node does not have.
-template <uint32_t Width>
-std::array<Numbers<Width>, kOctants> count_wins(const typename WideBvh<Width>::Node& node,
-                                                uint32_t child_count) {
-    Lanes<Width> centers[3], halves[3];
-    for (uint32_t axis = 0; axis < 3; ++axis) {
-        for (uint32_t i = 0; i < Width / 4; ++i) {
-            const Float4 lower = splat(0.5f) * load4(&node.lower[axis][4 * i]);
-            const Float4 upper = splat(0.5f) * load4(&node.upper[axis][4 * i]);
-            centers[axis][i] = lower + upper;
-            halves[axis][i] = upper - lower;
-        }
-    }
-    Int4 wins[kOctants][2 * Numbers<Width>().size()] = {};
-    for (uint32_t b = 0; b < child_count; ++b) {
-        for (uint32_t i = 0; i < Width / 4; ++i) {
-            Float4 separation[3];  // of b from the others
+    HWY_INLINE NodeLanes(const typename WideBvh<Width>::Node& node, uint32_t child_count) {
+        constexpr float kSmallest = std::numeric_limits<float>::min();  // two flat boxes reach so far
+        const D d;
+        const DI di;
+        V centers[3][kParts], halves[3][kParts];
+        for (uint32_t part = 0; part < kParts; ++part) {
             for (uint32_t axis = 0; axis < 3; ++axis) {
-                const Float4 center = splat(0.5f * node.lower[axis][b] + 0.5f * node.upper[axis][b]);
-                const Float4 half = splat(0.5f * node.upper[axis][b] - 0.5f * node.lower[axis][b]);
-                const Float4 reach = half + halves[axis][i];
-                separation[axis] = (center - centers[axis][i]) / max4(reach, splat(kSmallest));
+                const V half = hn::Set(d, 0.5f);
+                const V lower = hn::Mul(half, hn::Load(d, node.lower[axis] + part * kLanes));
+                const V upper = hn::Mul(half, hn::Load(d, node.upper[axis] + part * kLanes));
+                centers[axis][part] = hn::Add(lower, upper);
+                halves[axis][part] = hn::Sub(upper, lower);
             }
-            const Float4 plus = separation[0] + separation[1], minus = separation[0] - separation[1];
-            const Float4 z = separation[2];
-            wins[0][i] -= plus + z > 0.0f;  // a comparison that holds is -1
-            wins[1][i] -= z - minus > 0.0f;
-            wins[2][i] -= minus + z > 0.0f;
-            wins[3][i] -= z - plus > 0.0f;
+            for (uint32_t octant = 0; octant < kOctants; ++octant) wins[octant][part] = hn::Zero(di);
+        }
+        for (uint32_t b = 0; b < child_count; ++b) {
+            for (uint32_t part = 0; part < kParts; ++part) {
+                V separation[3];  // of b from the others
+                for (uint32_t axis = 0; axis < 3; ++axis) {
+                    const float lower = 0.5f * node.lower[axis][b], upper = 0.5f * node.upper[axis][b];
+                    const V reach = hn::Add(hn::Set(d, upper - lower), halves[axis][part]);
+                    separation[axis] = hn::Div(hn::Sub(hn::Set(d, lower + upper), centers[axis][part]),
+                                               hn::Max(reach, hn::Set(d, kSmallest)));
+                }
+                const V plus = hn::Add(separation[0], separation[1]);
+                const V minus = hn::Sub(separation[0], separation[1]);
+                const V z = separation[2], none = hn::Zero(d);
+                count(hn::Gt(hn::Add(plus, z), none), wins[0][part]);
+                count(hn::Gt(hn::Sub(z, minus), none), wins[1][part]);
+                count(hn::Gt(hn::Add(minus, z), none), wins[2][part]);
+                count(hn::Gt(hn::Sub(z, plus), none), wins[3][part]);
+            }
         }
     }
-    std::array<Numbers<Width>, kOctants> counts;
-    for (uint32_t octant = 0; octant < kOctants; ++octant)
-        for (uint32_t i = 0; i < counts[octant].size(); ++i)
-            counts[octant][i] = __builtin_shufflevector(reinterpret_cast<Short8>(wins[octant][2 * i]),
-                                                        reinterpret_cast<Short8>(wins[octant][2 * i + 1]), 0,
-                                                        2, 4, 6, 8, 10, 12, 14);
-    return counts;
-}
+    /// The lanes by descending wins. Of equal ones the first comes first, and empty lanes come last.
+    HWY_INLINE typename WideBvh<Width>::Order order(uint32_t octant, uint32_t child_count) const {
+        using Order = typename WideBvh<Width>::Order;
+        const DI di;
+        HWY_ALIGN int32_t all_keys[Width], all_ranks[Width];
+        VI keys[kParts], ranks[kParts];
+        for (uint32_t part = 0; part < kParts; ++part) {
+            const VI lane = hn::Iota(di, static_cast<int32_t>(part * kLanes));
+            const auto is_child = hn::Lt(lane, hn::Set(di, static_cast<int32_t>(child_count)));
+            const VI most = hn::IfThenElse(is_child, wins[octant][part], hn::Set(di, -1));
+            keys[part] = hn::Sub(hn::Mul(most, hn::Set(di, static_cast<int32_t>(Width))), lane);
+            hn::Store(keys[part], di, all_keys + part * kLanes);
+            ranks[part] = hn::Zero(di);
+        }
+        for (const int32_t key : all_keys)
+            for (uint32_t part = 0; part < kParts; ++part)
+                count(hn::Gt(hn::Set(di, key), keys[part]), ranks[part]);
+        for (uint32_t part = 0; part < kParts; ++part) hn::Store(ranks[part], di, all_ranks + part * kLanes);
+        Order order = 0;
+        for (uint32_t lane = 0; lane < Width; ++lane) {
+            const auto shift = WideBvh<Width>::kLaneBits * static_cast<uint32_t>(all_ranks[lane]);
+            order = static_cast<Order>(order | static_cast<Order>(lane) << shift);
+        }
+        return order;
+    }
 
-/// The lanes by descending counts. Of equal ones the first comes first, and empty lanes come last.
+private:
+    /// Adds 1 where the mask is set.
+    template <class Mask>
+    static HWY_INLINE void count(Mask mask, VI& number) {
+        const DI di;
+        number = hn::IfThenElse(hn::RebindMask(di, mask), hn::Add(number, hn::Set(di, 1)), number);
+    }
+};
+
 template <uint32_t Width>
-typename WideBvh<Width>::Order order_of(const Numbers<Width>& counts, uint32_t child_count) {
-    using Order = typename WideBvh<Width>::Order;
-    Numbers<Width> keys, ranks{};
-    for (uint32_t i = 0; i < keys.size(); ++i) {
-        const Short8 lane = kLane + splat16(8 * i);
-        const Short8 kept = lane >= splat16(child_count) ? splat16(0) - splat16(1) : counts[i];
-        keys[i] = kept * splat16(Width) - lane;
-    }
-    for (uint32_t other = 0; other < Width; ++other) {
-        const int16_t key = keys[other / 8][other % 8];
-        for (uint32_t i = 0; i < keys.size(); ++i)
-            ranks[i] -= Short8{key, key, key, key, key, key, key, key} > keys[i];
-    }
-    Order order = 0;
-    for (uint32_t lane = 0; lane < Width; ++lane) {
-        const auto rank = static_cast<uint32_t>(ranks[lane / 8][lane % 8]);
-        order = static_cast<Order>(order | static_cast<Order>(lane) << (WideBvh<Width>::kLaneBits * rank));
-    }
-    return order;
-}
-
-}  // namespace
-
-template <uint32_t Width>
-void set_order(typename WideBvh<Width>::Node& node) {
+HWY_INLINE void set_order_in(typename WideBvh<Width>::Node& node) {
     uint32_t child_count = 0;
     while (child_count < Width && !node.children[child_count].is_empty()) ++child_count;
-    const std::array<Numbers<Width>, kOctants> wins = count_wins<Width>(node, child_count);
-    for (uint32_t octant = 0; octant < kOctants; ++octant)
-        node.orders[octant] = order_of<Width>(wins[octant], child_count);
+    const NodeLanes<Width> lanes(node, child_count);
+    for (uint32_t octant = 0; octant < lanes.kOctants; ++octant)
+        node.orders[octant] = lanes.order(octant, child_count);
 }
 
-template void set_order<4>(WideBvh<4>::Node&);
-template void set_order<8>(WideBvh<8>::Node&);
-template void set_order<16>(WideBvh<16>::Node&);
+// Highway exports plain functions, not templates: one for each width.
+void set_order4(WideBvh<4>::Node& node) { set_order_in<4>(node); }
+void set_order8(WideBvh<8>::Node& node) { set_order_in<8>(node); }
+void set_order16(WideBvh<16>::Node& node) { set_order_in<16>(node); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace boxwood {
+
+HWY_EXPORT(set_order4);
+HWY_EXPORT(set_order8);
+HWY_EXPORT(set_order16);
+
+template <>
+void set_order<4>(WideBvh<4>::Node& node) {
+    HWY_DYNAMIC_DISPATCH(set_order4)(node);
+}
+template <>
+void set_order<8>(WideBvh<8>::Node& node) {
+    HWY_DYNAMIC_DISPATCH(set_order8)(node);
+}
+template <>
+void set_order<16>(WideBvh<16>::Node& node) {
+    HWY_DYNAMIC_DISPATCH(set_order16)(node);
+}
 
 }  // namespace boxwood
+#endif
